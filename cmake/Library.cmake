@@ -1,0 +1,28 @@
+# tetsoup_add_library(name folder...): a static library of all sources below src/<folder>, with the project's warnings.
+
+function(tetsoup_set_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${TETSOUP_WERROR}>:-Werror>)
+  # Same bits on every instruction set: no contraction of a * b + c.
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+endfunction()
+
+function(tetsoup_add_library name)
+  set(sources "")
+  foreach(folder IN LISTS ARGN)
+    file(GLOB found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${folder}/*.cpp)
+    list(APPEND sources ${found})
+  endforeach()
+  if(name STREQUAL "tetsoup" AND EXISTS ${PROJECT_SOURCE_DIR}/src/pipeline.cpp)
+    list(APPEND sources ${PROJECT_SOURCE_DIR}/src/pipeline.cpp)
+  endif()
+  add_library(${name} ${sources})
+  if(NOT TARGET tetsoup::${name})
+    add_library(tetsoup::${name} ALIAS ${name})
+  endif()
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON VERIFY_INTERFACE_HEADER_SETS ON
+                        CXX_VISIBILITY_PRESET hidden)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_compile_definitions(${name} PRIVATE $<$<BOOL:${TETSOUP_CHECKED}>:TETSOUP_CHECKED>)
+  tetsoup_set_warnings(${name})
+endfunction()

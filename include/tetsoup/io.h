@@ -1,0 +1,96 @@
+// tetsoup::io: files in and out. Everything throws IoError with the file's name and the line, byte or system reason.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tetsoup/distance.h"
+#include "tetsoup/pseudo_volume.h"
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+// --- Triangle soups -------------------------------------------------------------------------------------------------
+
+enum class SoupFormat { Obj, Stl, Ply, Off, Gltf };
+
+/// Reads a soup; the format is told from the content where that is certain, else from the extension (.obj .stl .ply
+/// .off .gltf .glb). Polygons are cut into fans; NaN and wild indices are passed on, since clean_soup() counts them.
+/// Memory stays within a small multiple of the file's size whatever its header claims.
+/// @throws IoError  if the file cannot be read or is not what it says; the text names the line or the byte offset.
+TriangleSoup read_soup(const std::filesystem::path& path);
+
+/// The same from memory; `name` stands for the path in errors. External buffers of a .gltf are not followed.
+TriangleSoup parse_soup(std::span<const std::byte> bytes, SoupFormat format, std::string_view name);
+
+enum class SurfaceFormat { Obj, StlBinary, Ply };
+
+/// Writes triangles by extension: .obj, .stl (binary), .ply (binary little endian). Vertices no triangle uses are left
+/// out.
+void write_surface(const std::filesystem::path& path, std::span<const Vec3> vertices,
+                   std::span<const Triangle> triangles);
+
+// --- Tet meshes -----------------------------------------------------------------------------------------------------
+
+enum class TetFormat {
+  Msh41,   ///< Gmsh MSH 4.1 ASCII, one node block, one element block, sequential tags from 1.
+  Msh22,   ///< Gmsh MSH 2.2 ASCII.
+  Vtk,     ///< Legacy VTK 3.0 ASCII, one point a line.
+  Vtu,     ///< VTK XML, inline base64.
+  Medit,   ///< .mesh
+  Tetgen,  ///< .node and .ele side by side, 0-based; the path may name either or have no extension.
+  Surface  ///< Boundary triangles only: .obj, .stl, .ply.
+};
+
+/// Names and extensions of the formats, for help texts: {"msh", "Gmsh MSH 4.1 (.msh)", Msh41} ...
+struct TetFormatInfo {
+  TetFormat format;
+  std::string name;       ///< As `--format` takes it.
+  std::string summary;    ///< One line.
+  std::string extension;  ///< With the dot.
+};
+const std::vector<TetFormatInfo>& tet_formats();
+
+/// Format by extension: .msh is 4.1; throws IoError listing the known extensions.
+TetFormat tet_format_of(const std::filesystem::path& path);
+
+/// Writes a mesh; format by extension unless given. Atomic: the file (or files) appear whole or not at all, and an
+/// existing one stays as it was if anything fails.
+/// @return  The files written.
+std::vector<std::filesystem::path> write_tets(const std::filesystem::path& path, const TetMesh& mesh,
+                                              std::optional<TetFormat> format = {});
+
+/// Reads a tet mesh in any of the formats above that holds tets; other cells are skipped.
+TetMesh read_tets(const std::filesystem::path& path);
+
+/// True if the path names, by extension and first bytes, a file that read_tets() takes rather than read_soup().
+bool is_tet_file(const std::filesystem::path& path);
+
+// --- Fields and pictures --------------------------------------------------------------------------------------------
+
+/// Writes distance, votes and inside (signed distance too) as VTK ImageData .vti with raw appended data. Atomic.
+void write_field(const std::filesystem::path& path, const DistanceField& field, const PseudoVolume& volume);
+
+/// Replaces `path` by `bytes`, whole or not at all; an existing file stays as it was if anything fails.
+void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// What a preview shows; all four panels in one picture.
+struct PreviewScene {
+  const TriangleSoup* soup = nullptr;    ///< As read.
+  const PseudoVolume* volume = nullptr;  ///< Votes are shown in a slice.
+  const TetMesh* lattice = nullptr;      ///< Before smoothing, with a cutaway.
+  const TetMesh* mesh = nullptr;         ///< Final.
+  std::string title;                     ///< One line on top.
+  std::array<std::string, 4> captions;   ///< One line under each panel.
+};
+
+/// Draws the four panels with a software rasteriser into a PNG of the given width. Atomic. Same bytes for the same
+/// scene.
+void write_preview(const std::filesystem::path& path, const PreviewScene& scene, int width = 1600);
+
+}  // namespace tetsoup

@@ -1,0 +1,75 @@
+// tetsoup, stage 3: which voxels lie in the pseudo volume, the space the soup intuitively occupies?
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tetsoup/distance.h"
+#include "tetsoup/progress.h"
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+/// Where in a run of voxels with P > k the volume event lies.
+enum class Placement {
+  Closest,  ///< At the run's first closest approach to the soup, to a fraction of a voxel.
+  Entry,    ///< At the run's first voxel, as the paper can also be read; dilates the result by the band.
+};
+
+/// At most one of `k`, `band_voxels` and `band`; none: automatic.
+struct PseudoVolumeOptions {
+  std::optional<double> k;            ///< Event threshold in (0, 1]: event where 1 - d / d_max > k [Spillmann06 §3].
+  std::optional<double> band_voxels;  ///< Event where the distance is below so many voxels.
+  std::optional<double> band;         ///< Event where the distance is below this length.
+  int rays = 26;                      ///< 26: both ways along 13 axes; 13: one way.
+  Placement placement = Placement::Closest;
+  bool operator==(const PseudoVolumeOptions&) const = default;
+};
+
+/// One candidate of the automatic choice.
+struct BandScore {
+  double band_voxels = 0;
+  double score = 0;      ///< What the choice maximises, 0..1 (docs/METHOD.md).
+  double consensus = 0;  ///< Mean of |2 votes / rays - 1| over all voxels.
+};
+
+struct PseudoVolumeReport {
+  double k = 0;            ///< Threshold used, after the floor.
+  double band = 0;         ///< (1 - k) d_max used; at least 0.9 voxels, below which a ray can miss a crossing.
+  double band_voxels = 0;  ///< The same in voxels.
+  bool automatic = false;  ///< The band was chosen here.
+  bool floored = false;    ///< The band asked for was below the floor.
+  std::vector<BandScore> candidates;  ///< What the automatic choice tried.
+  bool wants_wider_band = false;      ///< The best candidate is the widest that the distance field's band could serve.
+  std::size_t inside_voxels = 0;
+  double volume = 0;     ///< Of the inside voxels.
+  double consensus = 0;  ///< Mean of |2 votes / rays - 1| over all voxels; 1 = all rays agree everywhere.
+};
+
+struct PseudoVolume {
+  BitGrid inside;
+  Grid<std::uint8_t> votes;  ///< Rays that call the voxel inside, 0..rays.
+  int rays = 26;
+  PseudoVolumeReport report;
+};
+
+/// Decides which voxels lie in the pseudo volume.
+///
+/// Every voxel is crossed by 26 rays, one per neighbour direction; along a ray each run of voxels with P > k flips the
+/// parity once [Spillmann06 §3]. A voxel with odd parity on more than half of its rays is inside.
+///
+/// @param field  Its band must reach sqrt(3) voxels beyond the event band, so that every comparison sees true
+/// distances.
+/// @return       Votes and inside bits on the field's grid. Bitwise the same for any thread count.
+/// @throws InvalidInput  if an option is out of range or the field's band is too narrow for it; Cancelled.
+/// Cost: O(voxels) bit operations; 1 byte per voxel plus 6 bits while it runs. Automatic: once per candidate.
+PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptions& options = {},
+                             const Progress& progress = {});
+
+/// Half width, in voxels, of the distance band that classify_volume() needs for these options; for the automatic choice
+/// what its first candidates need, or all of them if `wide`.
+double band_needed_voxels(const DistanceField& field, const PseudoVolumeOptions& options, bool wide = false);
+
+}  // namespace tetsoup

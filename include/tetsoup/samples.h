@@ -1,0 +1,31 @@
+// tetsoup: the shapes the paper shows, made by formula; they serve as samples, test inputs and bench inputs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+struct SampleOptions {
+  double damage = 0;       ///< Share of the triangles removed at random, [0, 1).
+  std::uint64_t seed = 1;  ///< Of the random removal and of the random parts of a shape.
+};
+
+/// Names that make_sample() knows, in a fixed order.
+std::vector<std::string> sample_names();
+
+/// One line on what a sample is, for listings.
+std::string sample_summary(std::string_view name);
+
+/// Makes a sample; the same bits for the same name and options on every machine.
+/// @throws InvalidInput  for an unknown name (the text lists the known ones) or a damage out of range.
+TriangleSoup make_sample(std::string_view name, const SampleOptions& options = {});
+
+/// Removes a share of the triangles, chosen at random by seed; the vertices stay.
+TriangleSoup remove_triangles(const TriangleSoup& soup, double share, std::uint64_t seed);
+
+}  // namespace tetsoup

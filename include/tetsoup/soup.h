@@ -1,0 +1,55 @@
+// tetsoup, stage 1: what is this soup, and which of its triangles can be used?
+#pragma once
+
+#include <cstddef>
+
+#include "tetsoup/progress.h"
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+/// What the soup's own edges say it is.
+enum class SoupClass {
+  Closed,  ///< Every edge has two triangles, or more where parts touch: no open edge.
+  Open,    ///< A surface with open edges: holes, sheets.
+  Soup,    ///< Mostly unconnected: at least half as many open edges as triangles.
+  Empty,   ///< No finite triangle.
+};
+
+/// Diagnosis. Vertices count as one where their positions are bitwise equal (-0 equals 0), as in most files without
+/// indices.
+struct SoupReport {
+  std::size_t vertex_count = 0;        ///< As given.
+  std::size_t triangle_count = 0;      ///< As given.
+  std::size_t index_out_of_range = 0;  ///< Triangles dropped: an index beyond the vertices.
+  std::size_t non_finite = 0;          ///< Triangles dropped: a coordinate is NaN, infinite or beyond 1e30.
+  std::size_t duplicates = 0;          ///< Triangles dropped: the same three positions, in any order, stand before.
+  std::size_t zero_area = 0;        ///< Triangles kept as the segment or the point they are (duplicates not counted).
+  std::size_t used_triangles = 0;   ///< What is left: triangle_count less all that was dropped.
+  std::size_t merged_vertices = 0;  ///< Distinct positions of the used triangles.
+  std::size_t components = 0;       ///< Joined through shared vertices.
+  std::size_t boundary_edges = 0;   ///< Edges of one triangle.
+  std::size_t non_manifold_edges = 0;  ///< Edges of three or more triangles.
+  std::size_t inconsistent_edges = 0;  ///< Edges of two triangles that run along them in the same direction.
+  SoupClass kind = SoupClass::Empty;
+  Box3 box;  ///< Of the used triangles.
+};
+
+/// The soup in its canonical form: distinct positions in lexicographic order, each triangle's indices ascending,
+/// triangles in order and unique. Winding, triangle order and vertex order of the input leave no trace, so no later
+/// stage can see them.
+struct CleanSoup {
+  TriangleSoup soup;
+  SoupReport report;
+};
+
+/// Drops what cannot be used, counts all of it, and describes the rest.
+///
+/// Edge counts (boundary, non-manifold, inconsistent) are taken before duplicates are dropped, since a doubled sheet is
+/// a fact about the file; triangles with two equal corners have no edges to count.
+///
+/// @throws Cancelled  if `progress` says so. Never throws on geometry; an empty result has class Empty.
+/// Cost: O(n log n) time, O(n) memory, one thread.
+CleanSoup clean_soup(const TriangleSoup& soup, const Progress& progress = {});
+
+}  // namespace tetsoup

@@ -1,0 +1,90 @@
+// tetsoup: the plain structs that travel between the stages, and the conventions they all follow.
+//
+// Lengths are in the soup's own unit unless a name ends in `_voxels` or `_cells`; angles are radians; right-handed
+// axes. Tets are positive: dot(cross(b - a, c - a), d - a) > 0. Boundary triangles are counter-clockwise seen from
+// outside. Grids run x fastest; values sit at voxel centres.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tetsoup {
+
+struct Vec3 {
+  float x = 0, y = 0, z = 0;
+  bool operator==(const Vec3&) const = default;
+};
+
+struct Vec3d {
+  double x = 0, y = 0, z = 0;
+  bool operator==(const Vec3d&) const = default;
+};
+
+/// Axis-aligned box; empty where `hi` lies below `lo`.
+struct Box3 {
+  Vec3d lo, hi;
+  bool operator==(const Box3&) const = default;
+};
+
+using Triangle = std::array<std::uint32_t, 3>;
+using Tet = std::array<std::uint32_t, 4>;
+
+/// Any triangles at all: open, crossing, unoriented, duplicated, degenerate, non-finite.
+struct TriangleSoup {
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+};
+
+struct TetMesh {
+  std::vector<Vec3> vertices;
+  std::vector<Tet> tets;
+};
+
+/// Where a regular grid of cubic voxels lies. The grid is the voxels over the soup's box plus `pad` voxels on every
+/// side.
+struct GridFrame {
+  std::array<int, 3> size{0, 0, 0};  ///< Voxels along x, y, z, padding included.
+  int pad = 0;                       ///< Voxels added on each side of the soup's box.
+  Vec3d origin;                      ///< Centre of voxel (0, 0, 0).
+  double voxel_size = 1;             ///< Edge of a voxel.
+
+  std::size_t voxel_count() const {
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);
+  }
+  bool contains(int x, int y, int z) const {
+    return x >= 0 && y >= 0 && z >= 0 && x < size[0] && y < size[1] && z < size[2];
+  }
+  bool operator==(const GridFrame&) const = default;
+};
+
+template <class T>
+struct Grid {
+  GridFrame frame;
+  std::vector<T> values;  ///< (nz, ny, nx), x fastest.
+
+  std::size_t index(int x, int y, int z) const {
+    return static_cast<std::size_t>(x) +
+           static_cast<std::size_t>(frame.size[0]) *
+               (static_cast<std::size_t>(y) + static_cast<std::size_t>(frame.size[1]) * static_cast<std::size_t>(z));
+  }
+  T at(int x, int y, int z) const { return values[index(x, y, z)]; }
+};
+
+/// One bit a voxel: 64 voxels along x in a word, every row of voxels starts a new word, unused bits are zero.
+struct BitGrid {
+  GridFrame frame;
+  std::size_t words_per_row = 0;
+  std::vector<std::uint64_t> words;  ///< (nz, ny, words_per_row)
+
+  std::size_t row(int y, int z) const {
+    return words_per_row *
+           (static_cast<std::size_t>(y) + static_cast<std::size_t>(frame.size[1]) * static_cast<std::size_t>(z));
+  }
+  bool test(int x, int y, int z) const {
+    return (words[row(y, z) + static_cast<std::size_t>(x >> 6)] >> (x & 63)) & 1U;
+  }
+};
+
+}  // namespace tetsoup

@@ -1,0 +1,47 @@
+// The few formulas about one tet that several stages share.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/vec.h"
+
+namespace tetsoup {
+
+using TetCorners = std::array<Vec3d, 4>;
+
+/// Faces of a positive tet, each counter-clockwise from outside; face i lies opposite vertex i.
+inline constexpr std::array<std::array<int, 3>, 4> kTetFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+/// Edges of a tet; edge e is shared by the two faces opposite the vertices of edge 5 - e.
+inline constexpr std::array<std::array<int, 2>, 6> kTetEdges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+/// Positive for a positive tet.
+inline double signed_volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+  return dot(cross(b - a, c - a), d - a) / 6;
+}
+inline double signed_volume(const TetCorners& p) {
+  return signed_volume(p[0], p[1], p[2], p[3]);
+}
+
+/// Cosines of the six dihedral angles, at the edges of kTetEdges; NaN where a face has no area.
+inline std::array<double, 6> dihedral_cosines(const TetCorners& p) {
+  std::array<Vec3d, 4> normal;
+  std::array<double, 4> inverse_length{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& f = kTetFaces[i];
+    const Vec3d a = p[static_cast<std::size_t>(f[0])];
+    normal[i] = cross(p[static_cast<std::size_t>(f[1])] - a, p[static_cast<std::size_t>(f[2])] - a);
+    inverse_length[i] = 1 / length(normal[i]);
+  }
+  std::array<double, 6> cosines{};
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto i = static_cast<std::size_t>(kTetEdges[5 - e][0]);
+    const auto j = static_cast<std::size_t>(kTetEdges[5 - e][1]);
+    const double c = -dot(normal[i], normal[j]) * inverse_length[i] * inverse_length[j];
+    cosines[e] = std::isnan(c) ? c : std::clamp(c, -1.0, 1.0);
+  }
+  return cosines;
+}
+
+}  // namespace tetsoup
