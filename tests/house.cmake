@@ -18,8 +18,9 @@ function(tetsoup_add_consumer_test name)
   set_tests_properties(consumer.${name} PROPERTIES LABELS consumer)
 endfunction()
 
+# A surrounding project that prefers shared libraries, and has neither libpng nor tinygltf.
 tetsoup_add_consumer_test(add_subdirectory -DTETSOUP_SOURCE=${PROJECT_SOURCE_DIR} -DTETSOUP_TBB=${TETSOUP_TBB}
-  -DCMAKE_DISABLE_FIND_PACKAGE_PNG=ON -DCMAKE_DISABLE_FIND_PACKAGE_TinyGLTF=ON)
+  -DBUILD_SHARED_LIBS=ON -DCMAKE_DISABLE_FIND_PACKAGE_PNG=ON -DCMAKE_DISABLE_FIND_PACKAGE_TinyGLTF=ON)
 
 # The install prefix is made afresh, from what is built here; a core consumer must not even look for what io needs.
 if(TETSOUP_INSTALL)
