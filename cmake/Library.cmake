@@ -2,8 +2,9 @@
 
 function(tetsoup_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${TETSOUP_WERROR}>:-Werror>)
-  # Same bits on every instruction set: no contraction of a * b + c.
-  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  # Same bits on every instruction set: no contraction of a * b + c. The other two let loops with selects be vectorised and
+  # change no result.
+  target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 endfunction()
 
 function(tetsoup_add_library name)
