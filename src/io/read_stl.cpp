@@ -98,7 +98,7 @@ class TextReader {
     return true;
   }
   void expect(std::string_view keyword) {
-    if (!take(keyword)) text_.fail_expected("'" + std::string(keyword) + "'");
+    if (!take(keyword)) text_.fail_expected(quoted(keyword));
   }
   Vec3 point() {
     const auto coordinate = [&] {

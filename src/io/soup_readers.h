@@ -23,6 +23,13 @@ struct Source {
 [[noreturn]] void fail_at_line(std::string_view name, std::size_t line, const std::string& what);
 [[noreturn]] void fail_at_byte(std::string_view name, std::size_t byte, const std::string& what);
 
+/// 'text', as errors show names.
+inline std::string quoted(std::string_view text) {
+  std::string result = "'";
+  result.append(text).push_back('\'');
+  return result;
+}
+
 /// The whole file, in one go. Throws IoError with the system's reason, or if the file is empty.
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path);
 
