@@ -1,0 +1,181 @@
+// tetsoup mesh: a soup in, a tet mesh out.
+#include <fmt/format.h>
+
+#include <memory>
+#include <numbers>
+
+#include "commands.h"
+#include "files.h"
+#include "interrupt.h"
+#include "mesh_run.h"
+#include "options.h"
+#include "report_json.h"
+#include "soup_input.h"
+#include "summary.h"
+#include "tetsoup/error.h"
+#include "tetsoup/io.h"
+
+namespace tetsoup::cli {
+
+namespace {
+
+struct MeshCommand {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::optional<std::string> format;
+  std::optional<std::string> json;
+  std::optional<std::string> preview;
+  MeshOptions options;
+  RunOptions run;
+};
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  tetsoup mesh bunny.ply -o bunny.msh                     about 2,000 tets, everything chosen for you\n"
+    "  tetsoup mesh bunny.ply -o bunny.vtk --cells 40          more and smaller tets\n"
+    "  tetsoup mesh tree.obj -o tree.msh --band-voxels 2       bridge wider gaps between loose triangles\n"
+    "  tetsoup mesh part.stl -o part.msh --voxels 256 --preview part.png --json part.json\n"
+    "\n"
+    "Exit codes: 0 done, 1 internal error or out of memory, 2 wrong usage or option, 3 a file cannot be read or\n"
+    "written, 4 nothing in the file can be meshed, 130 cancelled.";
+
+std::string describe_formats() {
+  std::string text = "Format, instead of the one that the file's name tells:";
+  for (const TetFormatInfo& info : tet_formats()) text += fmt::format("\n{:<8} {}", info.name, info.summary);
+  return text;
+}
+
+/// Everything about the outputs that can be wrong is found here, before the work starts.
+std::vector<TetFormat> check_outputs(const MeshCommand& command) {
+  if (command.format && command.outputs.size() > 1)
+    throw InvalidInput("--format: needs exactly one -o; with several the files' names tell the formats");
+  Outputs outputs(command.input);
+  std::vector<TetFormat> formats;
+  for (const std::string& path : command.outputs) formats.push_back(outputs.add_mesh("-o", path, command.format));
+  if (command.preview) outputs.add("--preview", *command.preview, ".png");
+  if (command.json && *command.json != "-") outputs.add("--json", *command.json);
+  return formats;
+}
+
+void take_stage_times(MeshRun& run) {
+  const auto seconds = [&](Stage stage) { return run.pipeline->seconds(stage); };
+  run.seconds.soup = seconds(Stage::Soup);
+  run.seconds.distance = seconds(Stage::Distance);
+  run.seconds.pseudo_volume = seconds(Stage::PseudoVolume);
+  run.seconds.lattice = seconds(Stage::Lattice);
+  run.seconds.smooth = seconds(Stage::Smooth);
+}
+
+void measure(MeshRun& run) {
+  const Stopwatch watch;
+  run.quality = measure_quality(run.pipeline->smooth().mesh);
+  run.iou = intersection_over_union(run.pipeline->smooth().mesh, run.pipeline->pseudo_volume().inside);
+  run.seconds.quality = watch.seconds();
+}
+
+void write_meshes(const MeshCommand& command, const std::vector<TetFormat>& formats, MeshRun& run, NewFiles& files) {
+  const Stopwatch watch;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    throw_if_interrupted();
+    files.expect(command.outputs[i]);
+    const auto written = write_tets(command.outputs[i], run.pipeline->smooth().mesh, formats[i]);
+    run.outputs.insert(run.outputs.end(), written.begin(), written.end());
+  }
+  run.seconds.write = watch.seconds();
+}
+
+void draw_preview(const std::string& path, MeshRun& run, NewFiles& files) {
+  throw_if_interrupted();
+  const Stopwatch watch;
+  const Pipeline& pipeline = *run.pipeline;
+  const SoupReport& soup = pipeline.soup().report;
+  const PseudoVolumeReport& volume = pipeline.pseudo_volume().report;
+  const std::array<int, 3> size = unpadded_size(pipeline.distance().distance.frame);
+  PreviewScene scene;
+  scene.soup = &pipeline.soup().soup;
+  scene.volume = &pipeline.pseudo_volume();
+  scene.lattice = &pipeline.lattice().mesh;
+  scene.mesh = &pipeline.smooth().mesh;
+  scene.title = std::filesystem::path(run.input).filename().string();
+  scene.captions = {
+      fmt::format("{}, {}", counted(soup.used_triangles, "triangle"), counted(soup.boundary_edges, "open edge")),
+      fmt::format("votes, {} x {} x {} voxels, k = {:.4g}", size[0], size[1], size[2], volume.k),
+      fmt::format("lattice, {}", counted(pipeline.lattice().report.tet_count, "tet")),
+      fmt::format("mesh, {}, angles {:.1f} to {:.1f} degrees", counted(run.quality.tet_count, "tet"),
+                  run.quality.min_dihedral * 180 / std::numbers::pi,
+                  run.quality.max_dihedral * 180 / std::numbers::pi)};
+  files.expect(path);
+  write_preview(path, scene);
+  run.outputs.push_back(path);
+  run.seconds.preview = watch.seconds();
+}
+
+void run_mesh(MeshCommand& command) {
+  const Stopwatch watch;
+  check_input(command.input);
+  const std::vector<TetFormat> formats = check_outputs(command);
+  ProgressBar bar(command.run.quiet);
+  MeshRun run;
+  run.input = command.input;
+  const Pipeline pipeline = [&] {
+    Pipeline opened = open_pipeline(command.input, bar, run.seconds.read);
+    command.options.memory_limit = memory_limit(command.run);  // what is left once the soup is in memory
+    opened.run(command.options, bar.callback());
+    return opened;
+  }();
+  run.options = command.options;
+  run.pipeline = &pipeline;
+  take_stage_times(run);
+  bar.show("measure");
+  measure(run);
+  bar.show("write");
+  NewFiles files;
+  write_meshes(command, formats, run, files);
+  if (command.preview) draw_preview(*command.preview, run, files);
+  bar.clear();
+  throw_if_interrupted();
+  run.seconds.total = watch.seconds();
+  if (command.json) {
+    if (*command.json != "-") files.expect(*command.json);
+    write_report(*command.json, mesh_report_json(run));
+  }
+  files.keep();
+  if (command.run.quiet) return;
+  if (command.json && *command.json == "-")
+    fmt::print(stderr, "{}", describe_run(run));
+  else
+    write_stdout(describe_run(run));
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& app) {
+  const auto command = std::make_shared<MeshCommand>();
+  CLI::App* const mesh = app.add_subcommand("mesh", "Turn a triangle soup into a tet mesh");
+  mesh->footer(kExamples);
+  mesh->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb")->required()->option_text(" ");
+  mesh->add_option("-o,--output", command->outputs,
+                   "File for the mesh, by name .msh .vtk .vtu .mesh .node, or the\nboundary only: .obj .stl .ply; may "
+                   "be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  add_flag(
+      *mesh, "--format", "NAME", [command](const std::string& text) { command->format = text; }, describe_formats());
+  add_grid_flags(*mesh, command->options.distance);
+  add_volume_flags(*mesh, command->options.pseudo_volume);
+  add_lattice_flags(*mesh, command->options.lattice);
+  add_smooth_flags(*mesh, command->options.smooth);
+  add_flag(
+      *mesh, "--json", "FILE|-", [command](const std::string& text) { command->json = text; },
+      "Write a report for scripts; - is standard output")
+      ->group("Reports");
+  add_flag(
+      *mesh, "--preview", "FILE", [command](const std::string& text) { command->preview = text; },
+      "Draw soup, votes, lattice and mesh into a .png")
+      ->group("Reports");
+  add_run_flags(*mesh, command->run);
+  mesh->callback([command] { run_mesh(*command); });
+}
+
+}  // namespace tetsoup::cli

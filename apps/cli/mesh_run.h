@@ -1,0 +1,39 @@
+// All that is known after `tetsoup mesh` has done its work; the summary and the JSON report are two views of it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tetsoup/pipeline.h"
+#include "tetsoup/quality.h"
+
+namespace tetsoup::cli {
+
+/// Wall seconds per step.
+struct Timings {
+  double read = 0, soup = 0, distance = 0, pseudo_volume = 0, lattice = 0, smooth = 0;
+  double quality = 0;  ///< Measuring the result.
+  double preview = 0;  ///< Drawing and writing the picture.
+  double write = 0;    ///< Writing the mesh files.
+  double total = 0;
+};
+
+struct MeshRun {
+  std::string input;
+  std::vector<std::filesystem::path> outputs;  ///< Files written, the report itself left out.
+  MeshOptions options;
+  const Pipeline* pipeline = nullptr;  ///< Every stage has run.
+  Quality quality;                     ///< Of the final mesh.
+  double iou = 0;                      ///< Of the final mesh and the pseudo volume.
+  Timings seconds;
+};
+
+/// Voxels along x, y, z over the soup's box, the padding not counted.
+inline std::array<int, 3> unpadded_size(const GridFrame& frame) {
+  return {frame.size[0] - 2 * frame.pad, frame.size[1] - 2 * frame.pad, frame.size[2] - 2 * frame.pad};
+}
+
+}  // namespace tetsoup::cli

@@ -1,0 +1,163 @@
+#include "options.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "arguments.h"
+#include "memory.h"
+#include "tetsoup/error.h"
+
+namespace tetsoup::cli {
+
+namespace {
+
+// The ranges are those of the public headers; they are checked here so that the message names the flag.
+constexpr Range kVoxels{.low = 1, .high = 4096, .words = "a whole number from 1 to 4096"};
+constexpr Range kCells{.low = 1, .high = 1024, .words = "a whole number from 1 to 1024"};
+constexpr Range kShare{.low = 0, .high = 1, .low_included = false, .words = "a number above 0, at most 1"};
+constexpr Range kPasses{.low = 0, .high = 1000, .words = "a whole number from 0 to 1000"};
+constexpr Range kAngle{.low = 0, .high = 60, .high_included = false, .words = "degrees from 0 to below 60"};
+constexpr Range kThreads{.low = 0, .high = 4096, .words = "a whole number from 0 (all cores) to 4096"};
+
+constexpr const char* kGridGroup = "Voxel grid";
+constexpr const char* kVolumeGroup = "Inside or outside";
+constexpr const char* kLatticeGroup = "Tet lattice";
+constexpr const char* kSmoothGroup = "Smoothing";
+constexpr const char* kRunGroup = "Run";
+
+double to_radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
+
+}  // namespace
+
+CLI::Option* add_flag(CLI::App& app, const std::string& names, const std::string& value_name,
+                      const std::function<void(const std::string&)>& read, const std::string& description) {
+  return app.add_option_function<std::string>(names, read, description)->option_text(value_name);
+}
+
+void add_grid_flags(CLI::App& app, DistanceOptions& options) {
+  CLI::Option* const voxels = add_flag(
+      app, "--voxels", "N",
+      [&options](const std::string& text) { options.voxels = parse_whole("--voxels", text, kVoxels); },
+      "Voxels along the longest axis of the soup's box, 1..4096 (128)");
+  CLI::Option* const size = add_flag(
+      app, "--voxel-size", "L",
+      [&options](const std::string& text) { options.voxel_size = parse_number("--voxel-size", text, kPositive); },
+      "Edge of a voxel in the model's unit, instead of --voxels");
+  size->excludes(voxels);
+  voxels->group(kGridGroup);
+  size->group(kGridGroup);
+}
+
+void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
+  CLI::Option* const k = add_flag(
+      app, "--k", "auto|X",
+      [&options](const std::string& text) {
+        if (text != "auto")
+          options.k = parse_number("--k", text, {kShare.low, 1, false, true, "auto, or a number above 0, at most 1"});
+      },
+      "Event threshold in (0, 1]: 1 counts surface crossings, less\nbridges gaps between triangles (auto)");
+  CLI::Option* const voxels = add_flag(
+      app, "--band-voxels", "X",
+      [&options](const std::string& text) { options.band_voxels = parse_number("--band-voxels", text, kPositive); },
+      "Half width of the event band in voxels, instead of --k;\nabout half the widest gap that should count as closed");
+  CLI::Option* const band = add_flag(
+      app, "--band", "X",
+      [&options](const std::string& text) { options.band = parse_number("--band", text, kPositive); },
+      "The same as a length in the model's unit");
+  voxels->excludes(k);
+  band->excludes(k)->excludes(voxels);
+  CLI::Option* const rays = add_flag(
+      app, "--rays", "26|13",
+      [&options](const std::string& text) {
+        if (text != "26" && text != "13") throw InvalidInput("--rays " + text + ": must be 26 or 13");
+        options.rays = text == "26" ? 26 : 13;
+      },
+      "Rays that vote on every voxel (26)");
+  CLI::Option* const placement = add_flag(
+      app, "--placement", "closest|entry",
+      [&options](const std::string& text) {
+        if (text != "closest" && text != "entry")
+          throw InvalidInput("--placement " + text + ": must be closest or entry");
+        options.placement = text == "entry" ? Placement::Entry : Placement::Closest;
+      },
+      "Where a ray crosses the band: at its closest approach to the\nsoup, or on entering, which thickens the result "
+      "(closest)");
+  for (CLI::Option* const option : {k, voxels, band, rays, placement}) option->group(kVolumeGroup);
+}
+
+void add_lattice_flags(CLI::App& app, LatticeOptions& options) {
+  CLI::Option* const cells = add_flag(
+      app, "--cells", "N",
+      [&options](const std::string& text) { options.cells = parse_whole("--cells", text, kCells); },
+      "Cubic cells along the longest axis, five tets each, 1..1024\n(as many as give about 2,000 tets)");
+  CLI::Option* const size = add_flag(
+      app, "--cell-size", "L",
+      [&options](const std::string& text) { options.cell_size = parse_number("--cell-size", text, kPositive); },
+      "Edge of a cell in the model's unit, instead of --cells");
+  size->excludes(cells);
+  CLI::Option* const rho = add_flag(
+      app, "--rho-min", "X",
+      [&options](const std::string& text) { options.rho_min = parse_number("--rho-min", text, kShare); },
+      "A tet stays if at least this share of it is inside, (0, 1];\nless covers more of the space around the model "
+      "(0.5)");
+  CLI::Option* const translate = add_flag(
+      app, "--translate", "X,Y,Z",
+      [&options](const std::string& text) { options.translate_cells = parse_triple("--translate", text); },
+      "Shift of the lattice in fractions of a cell (0,0,0)");
+  CLI::Option* const rotate = add_flag(
+      app, "--rotate", "X,Y,Z",
+      [&options](const std::string& text) {
+        const Vec3d degrees = parse_triple("--rotate", text);
+        options.rotate = {to_radians(degrees.x), to_radians(degrees.y), to_radians(degrees.z)};
+      },
+      "Rotation of the lattice in degrees about x, then y, then z,\naround the centre of the soup's box (0,0,0)");
+  for (CLI::Option* const option : {cells, size, rho, translate, rotate}) option->group(kLatticeGroup);
+}
+
+void add_smooth_flags(CLI::App& app, SmoothOptions& options) {
+  CLI::Option* const passes = add_flag(
+      app, "--passes", "N",
+      [&options](const std::string& text) { options.passes = parse_whole("--passes", text, kPasses); },
+      "Smoothing passes, 0..1000; 0 leaves the lattice as it is (5)");
+  CLI::Option* const strength = add_flag(
+      app, "--strength", "X",
+      [&options](const std::string& text) { options.strength = parse_number("--strength", text, kPositive); },
+      "Strength of a pass, above 0 (1)");
+  CLI::Option* const angle = add_flag(
+      app, "--min-angle", "DEG",
+      [&options](const std::string& text) {
+        options.min_dihedral = to_radians(parse_number("--min-angle", text, kAngle));
+      },
+      "Dihedral angle that smoothing never goes below, 0..60 (15)");
+  for (CLI::Option* const option : {passes, strength, angle}) option->group(kSmoothGroup);
+}
+
+void add_quiet_flag(CLI::App& app, bool& quiet) {
+  app.add_flag("--quiet,-q", quiet, "Print nothing but errors")->group(kRunGroup);
+}
+
+void add_run_flags(CLI::App& app, RunOptions& options) {
+  add_flag(
+      app, "--threads", "N",
+      [](const std::string& text) { set_thread_count(parse_whole("--threads", text, kThreads)); },
+      "Threads to use; the result never depends on it (0: all cores)")
+      ->group(kRunGroup);
+  add_flag(
+      app, "--memory", "GB",
+      [&options](const std::string& text) { options.memory_gb = parse_number("--memory", text, kPositive); },
+      "Memory that the voxel grid may take (what is free now)")
+      ->group(kRunGroup);
+  add_quiet_flag(app, options.quiet);
+}
+
+std::optional<std::size_t> memory_limit(const RunOptions& options) {
+  if (!options.memory_gb) return usable_memory();
+  constexpr double kBytesPerGb = 1e9;
+  const double bytes = *options.memory_gb * kBytesPerGb;
+  constexpr double kMost = 1e18;  // anything beyond is no limit, and still fits a size_t
+  return static_cast<std::size_t>(std::min(bytes, kMost));
+}
+
+}  // namespace tetsoup::cli

@@ -1,0 +1,33 @@
+// The flags that commands share, in the groups in which --help lists them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "tetsoup/pipeline.h"
+
+namespace tetsoup::cli {
+
+/// What concerns the run rather than the result.
+struct RunOptions {
+  std::optional<double> memory_gb;
+  bool quiet = false;
+};
+
+/// A flag with a value: `read` gets the text behind it and throws InvalidInput if it makes no sense.
+CLI::Option* add_flag(CLI::App& app, const std::string& names, const std::string& value_name,
+                      const std::function<void(const std::string&)>& read, const std::string& description);
+
+void add_grid_flags(CLI::App& app, DistanceOptions& options);
+void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options);
+void add_lattice_flags(CLI::App& app, LatticeOptions& options);
+void add_smooth_flags(CLI::App& app, SmoothOptions& options);
+void add_quiet_flag(CLI::App& app, bool& quiet);
+void add_run_flags(CLI::App& app, RunOptions& options);
+
+/// Bytes the grids may take: what --memory says, else what the machine has left (memory.cpp); none if unknown.
+std::optional<std::size_t> memory_limit(const RunOptions& options);
+
+}  // namespace tetsoup::cli

@@ -1,0 +1,220 @@
+#include "report_json.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tetsoup/progress.h"
+
+namespace tetsoup::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;  // writes NaN and infinity as null
+
+double degrees(double radians) {
+  return radians * 180 / std::numbers::pi;
+}
+
+Json vector_json(const Vec3d& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+template <class T>
+Json optional_json(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json soup_json(const SoupReport& soup) {
+  Json box = nullptr;
+  if (soup.kind != SoupClass::Empty) box = {{"lo", vector_json(soup.box.lo)}, {"hi", vector_json(soup.box.hi)}};
+  return {{"class", class_name(soup.kind)},
+          {"vertex_count", soup.vertex_count},
+          {"triangle_count", soup.triangle_count},
+          {"index_out_of_range", soup.index_out_of_range},
+          {"non_finite", soup.non_finite},
+          {"duplicates", soup.duplicates},
+          {"zero_area", soup.zero_area},
+          {"used_triangles", soup.used_triangles},
+          {"merged_vertices", soup.merged_vertices},
+          {"components", soup.components},
+          {"boundary_edges", soup.boundary_edges},
+          {"non_manifold_edges", soup.non_manifold_edges},
+          {"inconsistent_edges", soup.inconsistent_edges},
+          {"box", box}};
+}
+
+Json quality_json(const Quality& quality) {
+  return {{"vertex_count", quality.vertex_count},
+          {"tet_count", quality.tet_count},
+          {"inverted_tets", quality.inverted_tets},
+          {"invalid_tets", quality.invalid_tets},
+          {"unused_vertices", quality.unused_vertices},
+          {"volume", quality.volume},
+          {"min_tet_volume", quality.min_tet_volume},
+          {"max_tet_volume", quality.max_tet_volume},
+          {"min_dihedral_deg", degrees(quality.min_dihedral)},
+          {"max_dihedral_deg", degrees(quality.max_dihedral)},
+          {"dihedral_histogram", quality.dihedral_histogram},
+          {"max_edge_ratio", quality.max_edge_ratio},
+          {"mean_ratio_min", quality.mean_ratio_min},
+          {"mean_ratio_mean", quality.mean_ratio_mean},
+          {"components", quality.components},
+          {"boundary_triangles", quality.boundary_triangles},
+          {"boundary_vertices", quality.boundary_vertices},
+          {"boundary_closed", quality.boundary_closed},
+          {"non_manifold_edges", quality.non_manifold_edges},
+          {"non_manifold_vertices", quality.non_manifold_vertices},
+          {"boundary_manifold", quality.boundary_manifold},
+          {"boundary_only_tets", quality.boundary_only_tets}};
+}
+
+Json seconds_json(const Timings& seconds) {
+  return {{"read", seconds.read},         {"soup", seconds.soup},
+          {"distance", seconds.distance}, {"pseudo_volume", seconds.pseudo_volume},
+          {"lattice", seconds.lattice},   {"smooth", seconds.smooth},
+          {"quality", seconds.quality},   {"preview", seconds.preview},
+          {"write", seconds.write},       {"total", seconds.total}};
+}
+
+Json grid_json(const DistanceField& field) {
+  const GridFrame& frame = field.distance.frame;
+  return {{"size", frame.size},
+          {"pad", frame.pad},
+          {"origin", vector_json(frame.origin)},
+          {"voxel_size", frame.voxel_size},
+          {"d_max", field.d_max},
+          {"memory_bytes", grid_memory(frame)}};
+}
+
+Json pseudo_volume_json(const PseudoVolumeReport& report) {
+  Json candidates = Json::array();
+  for (const BandScore& candidate : report.candidates)
+    candidates.push_back(
+        {{"band_voxels", candidate.band_voxels}, {"score", candidate.score}, {"consensus", candidate.consensus}});
+  return {{"k", report.k},
+          {"band", report.band},
+          {"band_voxels", report.band_voxels},
+          {"automatic", report.automatic},
+          {"floored", report.floored},
+          {"wants_wider_band", report.wants_wider_band},
+          {"inside_voxels", report.inside_voxels},
+          {"volume", report.volume},
+          {"consensus", report.consensus},
+          {"candidates", candidates}};
+}
+
+Json lattice_json(const LatticeReport& report) {
+  return {{"cells", report.cells},
+          {"cell_size", report.cell_size},
+          {"used_cells", report.used_cells},
+          {"tet_count", report.tet_count},
+          {"sampled_tets", report.sampled_tets},
+          {"kept_volume", report.kept_volume},
+          {"pseudo_volume", report.pseudo_volume},
+          {"kept_by_soup", report.kept_by_soup}};
+}
+
+Json smooth_json(const SmoothReport& report) {
+  const std::vector<float>& ratios = report.boundary_volume_ratio;
+  Json ratio = nullptr;
+  if (!ratios.empty()) {
+    const auto [low, high] = std::minmax_element(ratios.begin(), ratios.end());
+    double sum = 0;
+    for (const float r : ratios) sum += static_cast<double>(r);
+    ratio = {{"min", *low}, {"mean", sum / static_cast<double>(ratios.size())}, {"max", *high}};
+  }
+  return {{"passes", report.passes},
+          {"boundary_vertices", report.boundary_vertices},
+          {"shortened_moves", report.shortened_moves},
+          {"volume_before", report.volume_before},
+          {"volume_after", report.volume_after},
+          {"min_dihedral_deg", degrees(report.min_dihedral)},
+          {"boundary_volume_ratio", ratio}};
+}
+
+Json options_json(const MeshOptions& options) {
+  const DistanceOptions& distance = options.distance;
+  const PseudoVolumeOptions& volume = options.pseudo_volume;
+  const LatticeOptions& lattice = options.lattice;
+  const Vec3d turn{degrees(lattice.rotate.x), degrees(lattice.rotate.y), degrees(lattice.rotate.z)};
+  return {{"voxels", optional_json(distance.voxels)},
+          {"voxel_size", optional_json(distance.voxel_size)},
+          {"k", optional_json(volume.k)},
+          {"band_voxels", optional_json(volume.band_voxels)},
+          {"band", optional_json(volume.band)},
+          {"rays", volume.rays},
+          {"placement", volume.placement == Placement::Closest ? "closest" : "entry"},
+          {"cells", optional_json(lattice.cells)},
+          {"cell_size", optional_json(lattice.cell_size)},
+          {"rho_min", lattice.rho_min},
+          {"translate", vector_json(lattice.translate_cells)},
+          {"rotate_deg", vector_json(turn)},
+          {"passes", options.smooth.passes},
+          {"strength", options.smooth.strength},
+          {"min_angle_deg", degrees(options.smooth.min_dihedral)},
+          {"memory_limit_bytes", optional_json(options.memory_limit)},
+          {"threads", thread_count()}};
+}
+
+/// File names may hold any bytes, JSON only UTF-8: what is not is shown as U+FFFD.
+std::string text_of(const Json& json) {
+  constexpr int kIndent = 2;
+  return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+const char* class_name(SoupClass kind) {
+  switch (kind) {
+    case SoupClass::Closed:
+      return "closed";
+    case SoupClass::Open:
+      return "open";
+    case SoupClass::Soup:
+      return "soup";
+    case SoupClass::Empty:
+      break;
+  }
+  return "empty";
+}
+
+std::string mesh_report_json(const MeshRun& run) {
+  const Pipeline& pipeline = *run.pipeline;
+  const PseudoVolumeReport& volume = pipeline.pseudo_volume().report;
+  Json outputs = Json::array();
+  for (const auto& path : run.outputs) outputs.push_back(path.string());
+  return text_of({{"tet_count", run.quality.tet_count},
+                  {"vertex_count", run.quality.vertex_count},
+                  {"inverted_tets", run.quality.inverted_tets},
+                  {"min_dihedral_deg", degrees(run.quality.min_dihedral)},
+                  {"max_dihedral_deg", degrees(run.quality.max_dihedral)},
+                  {"boundary_manifold", run.quality.boundary_manifold},
+                  {"components", run.quality.components},
+                  {"volume", run.quality.volume},
+                  {"iou_pseudo_volume", run.iou},
+                  {"k", volume.k},
+                  {"band_voxels", volume.band_voxels},
+                  {"voxels", unpadded_size(pipeline.distance().distance.frame)},
+                  {"soup", soup_json(pipeline.soup().report)},
+                  {"seconds", seconds_json(run.seconds)},
+                  {"version", TETSOUP_VERSION},
+                  {"input", run.input},
+                  {"outputs", outputs},
+                  {"options", options_json(run.options)},
+                  {"grid", grid_json(pipeline.distance())},
+                  {"pseudo_volume", pseudo_volume_json(volume)},
+                  {"lattice", lattice_json(pipeline.lattice().report)},
+                  {"smooth", smooth_json(pipeline.smooth().report)},
+                  {"quality", quality_json(run.quality)}});
+}
+
+std::string soup_report_json(const std::string& input, const SoupReport& report) {
+  return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"soup", soup_json(report)}});
+}
+
+std::string tets_report_json(const std::string& input, const Quality& quality) {
+  return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"quality", quality_json(quality)}});
+}
+
+}  // namespace tetsoup::cli

@@ -1,0 +1,19 @@
+// The reports for scripts. Member names are a promise; numbers that do not exist (NaN, infinity) are null.
+#pragma once
+
+#include <string>
+
+#include "mesh_run.h"
+#include "tetsoup/quality.h"
+#include "tetsoup/soup.h"
+
+namespace tetsoup::cli {
+
+std::string mesh_report_json(const MeshRun& run);
+std::string soup_report_json(const std::string& input, const SoupReport& report);
+std::string tets_report_json(const std::string& input, const Quality& quality);
+
+/// "closed", "open", "soup" or "empty", in reports and in texts.
+const char* class_name(SoupClass kind);
+
+}  // namespace tetsoup::cli

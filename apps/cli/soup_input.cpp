@@ -1,0 +1,29 @@
+#include "soup_input.h"
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "files.h"
+#include "interrupt.h"
+#include "summary.h"
+
+namespace tetsoup::cli {
+
+Pipeline open_pipeline(const std::filesystem::path& input, ProgressBar& bar, double& read_seconds) {
+  bar.show("read");
+  const Stopwatch watch;
+  const TriangleSoup soup = read_input_soup(input);
+  read_seconds = watch.seconds();
+  throw_if_interrupted();
+  Pipeline pipeline(soup, bar.callback());
+  const SoupReport& report = pipeline.soup().report;
+  if (report.kind == SoupClass::Empty)
+    throw CannotMesh(
+        fmt::format("{}: no usable triangle: {} given, {} with non-finite coordinates, {} with indices out of "
+                    "range; check how the file was exported",
+                    input.string(), grouped(report.triangle_count), grouped(report.non_finite),
+                    grouped(report.index_out_of_range)));
+  return pipeline;
+}
+
+}  // namespace tetsoup::cli

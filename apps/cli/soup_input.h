@@ -1,0 +1,25 @@
+// What mesh and field do first: read the soup, clean it, and refuse it if nothing is left.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+
+#include "progress_bar.h"
+#include "tetsoup/pipeline.h"
+
+namespace tetsoup::cli {
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// @param read_seconds  Set to the time that reading took.
+/// @throws CannotMesh   if no finite triangle is in the file.
+Pipeline open_pipeline(const std::filesystem::path& input, ProgressBar& bar, double& read_seconds);
+
+}  // namespace tetsoup::cli

@@ -1,0 +1,210 @@
+#include "summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "report_json.h"
+
+namespace tetsoup::cli {
+
+namespace {
+
+double degrees(double radians) {
+  return radians * 180 / std::numbers::pi;
+}
+
+/// "a", "a and b", "a, b and c"
+std::string listed(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += i + 1 == parts.size() ? " and " : ", ";
+    text += parts[i];
+  }
+  return text;
+}
+
+std::string describe_dropped(const SoupReport& soup) {
+  const std::size_t dropped = soup.non_finite + soup.index_out_of_range + soup.duplicates;
+  if (dropped == 0) return {};
+  std::vector<std::string> reasons;
+  if (soup.non_finite > 0) reasons.push_back(grouped(soup.non_finite) + " with non-finite coordinates");
+  if (soup.index_out_of_range > 0) reasons.push_back(grouped(soup.index_out_of_range) + " with indices out of range");
+  if (soup.duplicates > 0) reasons.push_back(grouped(soup.duplicates) + " that stood there before");
+  return fmt::format(" {} {} dropped: {}.", counted(dropped, "triangle"), dropped == 1 ? "was" : "were",
+                     listed(reasons));
+}
+
+std::string describe_edges(const SoupReport& soup) {
+  std::string text;
+  if (soup.kind == SoupClass::Soup)
+    text = fmt::format(" It is mostly loose: {}; taken for the solid that they outline.",
+                       counted(soup.boundary_edges, "open edge"));
+  else if (soup.boundary_edges > 0)
+    text = fmt::format(" The surface has {}; treated as closed.", counted(soup.boundary_edges, "open edge"));
+  else
+    text = " The surface is closed.";
+  std::vector<std::string> oddities;
+  if (soup.non_manifold_edges > 0)
+    oddities.push_back(counted(soup.non_manifold_edges, "edge") + " of three or more triangles");
+  if (soup.inconsistent_edges > 0)
+    oddities.push_back(counted(soup.inconsistent_edges, "edge") + " with inconsistent winding");
+  if (soup.zero_area > 0)
+    oddities.push_back(counted(soup.zero_area, "triangle") + " without area, used as segments or points");
+  if (!oddities.empty()) text += " It has " + listed(oddities) + ": no harm here.";
+  return text;
+}
+
+std::string describe_lattice(const LatticeReport& lattice, const SmoothReport& smooth) {
+  std::string text =
+      fmt::format("Lattice: {} x {} x {} cells of edge {:.4g}; {} kept.", lattice.cells[0], lattice.cells[1],
+                  lattice.cells[2], lattice.cell_size, counted(lattice.tet_count, "tet"));
+  if (smooth.passes == 0) return text + " Not smoothed.\n";
+  return text + fmt::format(" Smoothed in {}{}.\n", counted(static_cast<std::size_t>(smooth.passes), "pass"),
+                            smooth.shortened_moves > 0 ? fmt::format("; {} cut short for the sake of the angles",
+                                                                     counted(smooth.shortened_moves, "move"))
+                                                       : std::string());
+}
+
+std::string describe_result(const MeshRun& run) {
+  const Quality& q = run.quality;
+  return fmt::format(
+      "Result: {}, {}, volume {:.4g}; dihedral angles {:.1f} to {:.1f} degrees; {}; boundary {}; overlap with the "
+      "inside voxels (IoU) {:.3f}.\n",
+      counted(q.tet_count, "tet"), counted(q.vertex_count, "vertex"), q.volume, degrees(q.min_dihedral),
+      degrees(q.max_dihedral), counted(q.components, "piece"), q.boundary_manifold ? "manifold" : "not manifold",
+      run.iou);
+}
+
+/// Below this overlap the mesh misses features that its voxels show; the default lattice of solid models reaches more.
+constexpr double kLowOverlap = 0.75;
+/// Beyond this share of tets judged without a voxel centre, the lattice is finer than the grid that it was cut from.
+constexpr double kManySampled = 0.1;
+
+void note_lattice(const MeshRun& run, std::vector<std::string>& notes) {
+  const LatticeReport& lattice = run.pipeline->lattice().report;
+  const int longest = *std::max_element(lattice.cells.begin(), lattice.cells.end());
+  if (lattice.kept_by_soup) {
+    notes.push_back(fmt::format(
+        "No tet was filled enough (--rho-min {:.4g}), as happens with sheets and needles, so the tets that the soup "
+        "passes through were kept. For a thinner body use more cells (--cells {}); for a filled one a wider band "
+        "(--band-voxels {:.3g}).",
+        run.options.lattice.rho_min, 2 * longest, 2 * run.pipeline->pseudo_volume().report.band_voxels));
+    return;
+  }
+  if (static_cast<double>(lattice.sampled_tets) > kManySampled * static_cast<double>(lattice.tet_count))
+    notes.push_back(fmt::format(
+        "The lattice is finer than the voxel grid: {} held no voxel centre and were judged by samples. More voxels "
+        "(--voxels {}) show more of the shape.",
+        counted(lattice.sampled_tets, "tet"),
+        2 * *std::max_element(run.pipeline->distance().distance.frame.size.begin(),
+                              run.pipeline->distance().distance.frame.size.end())));
+  if (run.iou < kLowOverlap)
+    notes.push_back(fmt::format(
+        "The mesh follows the shape only roughly. More cells follow it more closely: --cells {}.", 2 * longest));
+}
+
+void note_topology(const Quality& quality, std::vector<std::string>& notes) {
+  if (quality.inverted_tets + quality.invalid_tets > 0)
+    notes.push_back(
+        fmt::format("{} of the mesh have no positive volume. This is a bug; please report it with the input.",
+                    counted(quality.inverted_tets + quality.invalid_tets, "tet")));
+  if (quality.components > 1)
+    notes.push_back(fmt::format(
+        "The mesh is in {} pieces that share no face. To join what is meant to be one, use fewer cells (--cells), a "
+        "lower --rho-min or a wider band (--band-voxels).",
+        grouped(quality.components)));
+  if (!quality.boundary_manifold)
+    notes.push_back(
+        fmt::format("The boundary touches itself: {} and {} are not manifold. Simulations take that; where a manifold "
+                    "is needed, try "
+                    "another --cells, --translate or --rho-min.",
+                    counted(quality.non_manifold_edges, "edge"), counted(quality.non_manifold_vertices, "vertex")));
+}
+
+std::string describe_seconds(const Timings& seconds) {
+  std::string text = fmt::format("Time: {:.2f} s (", seconds.total);
+  const std::pair<const char*, double> steps[] = {
+      {"read", seconds.read},         {"clean", seconds.soup},
+      {"distance", seconds.distance}, {"pseudo volume", seconds.pseudo_volume},
+      {"lattice", seconds.lattice},   {"smooth", seconds.smooth},
+      {"measure", seconds.quality},   {"preview", seconds.preview},
+      {"write", seconds.write}};
+  const char* comma = "";
+  for (const auto& [name, value] : steps) {
+    if (value == 0) continue;
+    text += fmt::format("{}{} {:.2f}", comma, name, value);
+    comma = ", ";
+  }
+  return text + ")\n";
+}
+
+}  // namespace
+
+std::string grouped(std::size_t count) {
+  std::string digits = std::to_string(count);
+  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, 1, ',');
+  return digits;
+}
+
+std::string counted(std::size_t count, std::string_view noun) {
+  std::string plural(noun);
+  if (noun == "vertex")
+    plural = "vertices";
+  else if (noun == "pass")
+    plural = "passes";
+  else
+    plural += "s";
+  return fmt::format("{} {}", grouped(count), count == 1 ? noun : plural);
+}
+
+std::string describe_soup(const std::string& name, const SoupReport& soup) {
+  return fmt::format("{}: {} with {} in {}.{}{}\n", name, counted(soup.triangle_count, "triangle"),
+                     counted(soup.merged_vertices, "vertex"), counted(soup.components, "part"), describe_edges(soup),
+                     describe_dropped(soup));
+}
+
+std::string describe_raised_voxels(const CleanSoup& soup, const DistanceOptions& asked, const GridFrame& frame) {
+  const Box3& box = soup.report.box;
+  const double longest = std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z});
+  constexpr int kDefaultVoxels = 128;
+  const double wanted = asked.voxel_size.value_or(longest / asked.voxels.value_or(kDefaultVoxels));
+  constexpr double kRounding = 1e-6;  // relative; a raised edge is larger by more than that
+  if (frame.voxel_size <= wanted * (1 + kRounding)) return {};
+  if (longest == 0) return fmt::format("The soup has no extent; the voxel edge is {:.4g}.", frame.voxel_size);
+  return fmt::format(
+      "The voxel edge was raised from {:.4g} to {:.4g}: so far from the origin single precision tells no finer voxels "
+      "apart. Move the model to the origin to get what was asked for.",
+      wanted, frame.voxel_size);
+}
+
+std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& volume) {
+  const std::array<int, 3> size = unpadded_size(frame);
+  std::string text = fmt::format("Grid: {} x {} x {} voxels of edge {:.4g}. k = {:.4g} {} (band {:.3g} voxels)",
+                                 size[0], size[1], size[2], frame.voxel_size, volume.k,
+                                 volume.automatic ? "was chosen" : "was used", volume.band_voxels);
+  text += volume.floored ? "; the band asked for was below 0.9 voxels, where rays miss surfaces. " : ". ";
+  return text + counted(volume.inside_voxels, "voxel") +
+         (volume.inside_voxels == 1 ? " is inside.\n" : " are inside.\n");
+}
+
+std::string describe_run(const MeshRun& run) {
+  const Pipeline& pipeline = *run.pipeline;
+  const GridFrame& frame = pipeline.distance().distance.frame;
+  std::string text = describe_soup(run.input, pipeline.soup().report) +
+                     describe_volume(frame, pipeline.pseudo_volume().report) +
+                     describe_lattice(pipeline.lattice().report, pipeline.smooth().report) + describe_result(run);
+  std::vector<std::string> notes;
+  const std::string raised = describe_raised_voxels(pipeline.soup(), run.options.distance, frame);
+  if (!raised.empty()) notes.push_back(raised);
+  note_lattice(run, notes);
+  note_topology(run.quality, notes);
+  for (const std::string& note : notes) text += "Note: " + note + "\n";
+  text += describe_seconds(run.seconds);
+  for (const auto& path : run.outputs) text += "Wrote " + path.string() + "\n";
+  return text;
+}
+
+}  // namespace tetsoup::cli

@@ -1,0 +1,41 @@
+// What was found, assumed and made, in plain words.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh_run.h"
+#include "tetsoup/distance.h"
+#include "tetsoup/pseudo_volume.h"
+#include "tetsoup/quality.h"
+#include "tetsoup/soup.h"
+
+namespace tetsoup::cli {
+
+/// 1234567 -> "1,234,567"
+std::string grouped(std::size_t count);
+
+/// "1 triangle", "2,013 triangles"
+std::string counted(std::size_t count, std::string_view noun);
+
+/// One paragraph: what the soup is, what was dropped, what is assumed about it.
+std::string describe_soup(const std::string& name, const SoupReport& soup);
+
+/// Why the grid is coarser than asked, or nothing.
+std::string describe_raised_voxels(const CleanSoup& soup, const DistanceOptions& asked, const GridFrame& frame);
+
+/// Grid, event band and what came out inside.
+std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& volume);
+
+/// The whole text that `tetsoup mesh` prints.
+std::string describe_run(const MeshRun& run);
+
+/// A table of the soup's numbers.
+std::string tabulate_soup(const std::string& name, const SoupReport& soup);
+
+/// A table of a tet mesh's numbers, with a histogram of its dihedral angles.
+std::string tabulate_tets(const std::string& name, const Quality& quality);
+
+}  // namespace tetsoup::cli

@@ -1,0 +1,99 @@
+// The tables of `tetsoup inspect`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "report_json.h"
+#include "summary.h"
+
+namespace tetsoup::cli {
+
+namespace {
+
+constexpr std::size_t kHistogramWidth = 40;  // columns of the longest bar
+
+double degrees(double radians) {
+  return radians * 180 / std::numbers::pi;
+}
+
+std::string row(std::string_view label, const std::string& value, std::string_view remark = {}) {
+  std::string line = fmt::format("  {:<24}{:>14}", label, value);
+  if (!remark.empty()) line += fmt::format("  {}", remark);
+  return line + "\n";
+}
+
+std::string number(double value) {
+  return fmt::format("{:.4g}", value);
+}
+
+std::string histogram(const Quality& quality) {
+  const auto& bins = quality.dihedral_histogram;
+  const auto used = [](std::size_t count) { return count > 0; };
+  const auto first = std::find_if(bins.begin(), bins.end(), used);
+  if (first == bins.end()) return {};
+  const auto last = std::find_if(bins.rbegin(), bins.rend(), used).base();
+  const std::size_t most = *std::max_element(first, last);
+  constexpr std::size_t kBinDegrees = 180 / kDihedralBins;
+  std::string text = "  dihedral angles in degrees, six a tet\n";
+  for (auto bin = first; bin != last; ++bin) {
+    const std::size_t low = static_cast<std::size_t>(bin - bins.begin()) * kBinDegrees;
+    std::size_t length = *bin * kHistogramWidth / most;
+    if (*bin > 0 && length == 0) length = 1;  // what is there is to be seen
+    text += fmt::format("  {:>4} - {:<4}{:<{}} {}\n", low, low + kBinDegrees, std::string(length, '#'), kHistogramWidth,
+                        grouped(*bin));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string tabulate_soup(const std::string& name, const SoupReport& soup) {
+  std::string text = fmt::format("{}: {}\n", name,
+                                 soup.kind == SoupClass::Closed ? "closed surface"
+                                 : soup.kind == SoupClass::Open ? "surface with open edges"
+                                 : soup.kind == SoupClass::Soup ? "soup of loose triangles"
+                                                                : "no usable triangle");
+  text += row("triangles", grouped(soup.triangle_count)) + row("vertices", grouped(soup.vertex_count)) +
+          row("used triangles", grouped(soup.used_triangles)) +
+          row("distinct positions", grouped(soup.merged_vertices)) +
+          row("parts", grouped(soup.components), "joined through vertices") +
+          row("open edges", grouped(soup.boundary_edges), "of one triangle") +
+          row("non-manifold edges", grouped(soup.non_manifold_edges), "of three or more triangles") +
+          row("inconsistent edges", grouped(soup.inconsistent_edges), "whose two triangles wind against each other") +
+          row("zero-area triangles", grouped(soup.zero_area), "used as segments or points") +
+          row("dropped: non-finite", grouped(soup.non_finite)) +
+          row("dropped: wild index", grouped(soup.index_out_of_range)) +
+          row("dropped: duplicate", grouped(soup.duplicates));
+  if (soup.kind == SoupClass::Empty) return text + "There is nothing to mesh in it.\n";
+  const Vec3d &lo = soup.box.lo, &hi = soup.box.hi;
+  text += fmt::format("  box from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", lo.x, lo.y, lo.z, hi.x, hi.y,
+                      hi.z);
+  return text + fmt::format("Mesh it with: tetsoup mesh {} -o out.msh\n", name);
+}
+
+std::string tabulate_tets(const std::string& name, const Quality& q) {
+  std::string text =
+      fmt::format("{}: {} mesh\n", name, q.inverted_tets + q.invalid_tets == 0 ? "valid tet" : "faulty tet");
+  text += row("tets", grouped(q.tet_count)) + row("vertices", grouped(q.vertex_count)) +
+          row("inverted tets", grouped(q.inverted_tets), "volume zero, negative or not a number") +
+          row("invalid tets", grouped(q.invalid_tets), "index out of range or used twice") +
+          row("unused vertices", grouped(q.unused_vertices)) + row("volume", number(q.volume)) +
+          row("smallest tet volume", number(q.min_tet_volume)) + row("largest tet volume", number(q.max_tet_volume)) +
+          row("smallest dihedral", fmt::format("{:.2f}", degrees(q.min_dihedral)), "degrees") +
+          row("largest dihedral", fmt::format("{:.2f}", degrees(q.max_dihedral)), "degrees") +
+          row("largest edge ratio", number(q.max_edge_ratio), "longest over shortest edge of a tet") +
+          row("smallest mean ratio", number(q.mean_ratio_min), "1 = regular tet, 0 = flat") +
+          row("average mean ratio", number(q.mean_ratio_mean)) +
+          row("pieces", grouped(q.components), "joined through faces") +
+          row("boundary triangles", grouped(q.boundary_triangles)) +
+          row("boundary vertices", grouped(q.boundary_vertices)) +
+          row("boundary closed", q.boundary_closed ? "yes" : "no") +
+          row("boundary manifold", q.boundary_manifold ? "yes" : "no") +
+          row("non-manifold edges", grouped(q.non_manifold_edges)) +
+          row("non-manifold vertices", grouped(q.non_manifold_vertices)) +
+          row("boundary-only tets", grouped(q.boundary_only_tets), "all four vertices on the boundary");
+  return text + histogram(q);
+}
+
+}  // namespace tetsoup::cli
