@@ -22,8 +22,8 @@ struct Quality {
   double min_dihedral = 0, max_dihedral = 0;                    ///< Radians; over all tets with a volume, of any sign.
   std::array<std::size_t, kDihedralBins> dihedral_histogram{};  ///< Six angles a tet.
   double max_edge_ratio = 0;  ///< Longest over shortest edge of a tet, worst tet with a volume.
-  double mean_ratio_min = 0,
-         mean_ratio_mean = 0;  ///< 12 (3 V)^(2/3) / sum of squared edges: 1 = regular, 0 = flat or inverted.
+  /// 12 (3 V)^(2/3) / sum of squared edges: 1 = regular, 0 = flat or inverted.
+  double mean_ratio_min = 0, mean_ratio_mean = 0;
   std::size_t components = 0;  ///< Joined through shared faces.
   std::size_t boundary_triangles = 0;
   std::size_t boundary_vertices = 0;

@@ -1,0 +1,56 @@
+// A tet mesh whose vertices can only be moved where no tet is harmed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/tet_geometry.h"
+#include "smooth/connectivity.h"
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+inline constexpr std::size_t kVerticesPerStep =
+    256;  ///< Moves between two looks at the progress callback: well under 1 ms.
+
+/// Every tet keeps, in the float positions that are stored, a share of its first volume and dihedral angles above the
+/// floor, or above its first smallest one where that was lower. Refers to the start and the links: both must outlive
+/// it.
+class GuardedMesh {
+ public:
+  GuardedMesh(const TetMesh& start, const Connectivity& links, double min_dihedral);
+
+  /// Moves a vertex all the way to the target, or a half, a quarter, ... of it, or not at all.
+  /// @return  Whether it went all the way.
+  bool move(std::uint32_t vertex, const Vec3d& target);
+
+  /// Puts a vertex anywhere; whoever does it asks is_sound() about the tets afterwards.
+  void place(std::uint32_t vertex, const Vec3& position) { mesh_.vertices[vertex] = position; }
+  bool is_sound(std::size_t tet) const;
+
+  Vec3d at(std::uint32_t vertex) const { return to_double(mesh_.vertices[vertex]); }
+  Vec3d start_of(std::uint32_t vertex) const { return to_double(start_.vertices[vertex]); }
+  double volume(std::size_t tet) const { return signed_volume(corners(mesh_, tet)); }
+  double start_volume(std::size_t tet) const { return signed_volume(corners(start_, tet)); }
+  double min_dihedral() const;
+  const TetMesh& mesh() const { return mesh_; }
+  std::size_t shortened_moves() const { return shortened_moves_; }
+
+ private:
+  static TetCorners corners(const TetMesh& mesh, std::size_t tet);
+  bool surroundings_are_sound(std::uint32_t vertex) const;
+
+  struct Limit {
+    double volume;  ///< A tet's must stay above.
+    double cosine;  ///< None of its dihedral angles' may rise above.
+  };
+
+  const TetMesh& start_;
+  const Connectivity& links_;
+  TetMesh mesh_;
+  std::vector<Limit> limits_;
+  std::size_t shortened_moves_ = 0;
+};
+
+}  // namespace tetsoup

@@ -1,0 +1,109 @@
+#include "tetsoup/smooth.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "base/parallel.h"
+#include "base/require.h"
+#include "base/tet_faces.h"
+#include "smooth/connectivity.h"
+#include "smooth/fairing.h"
+#include "smooth/guard.h"
+#include "smooth/volume.h"
+
+namespace tetsoup {
+
+namespace {
+
+constexpr int kInteriorSweeps = 2;       // A pass moves the boundary by a fraction of an edge; the effect decays fast.
+constexpr double kShareOfPasses = 0.95;  // Of the stage's time; the rest goes into the total volume.
+
+void check(const SmoothOptions& options) {
+  require(options.passes >= 0 && options.passes <= 1000, "passes", options.passes, "0 to 1000");
+  require(options.strength > 0 && std::isfinite(options.strength), "strength", options.strength, "above 0 and finite");
+  require(options.min_dihedral >= 0 && options.min_dihedral < std::numbers::pi / 3, "min_dihedral",
+          options.min_dihedral, "at least 0 and below pi / 3 radians");
+}
+
+void check(const TetMesh& mesh) {
+  const auto name = [](std::size_t t) { return "mesh.tets[" + std::to_string(t) + "]"; };
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const Tet& tet = mesh.tets[t];
+    if (!is_valid_tet(tet, mesh.vertices.size())) require(false, name(t), "invalid", "four different vertices");
+    const double volume = signed_volume(to_double(mesh.vertices[tet[0]]), to_double(mesh.vertices[tet[1]]),
+                                        to_double(mesh.vertices[tet[2]]), to_double(mesh.vertices[tet[3]]));
+    if (!(volume > 0) || !std::isfinite(volume)) require(false, name(t) + " volume", volume, "above 0 and finite");
+  }
+}
+
+std::vector<Vec3d> fair_boundary(const Connectivity& links, const GuardedMesh& mesh, const BoundaryFlow& flow,
+                                 double strength) {
+  std::vector<Vec3d> targets;
+  targets.reserve(links.boundary.size());
+  for (const std::uint32_t v : links.boundary) targets.push_back(mesh.at(v));
+  const std::vector<Vec3d> moves = flow.fair(targets, strength);
+  for (std::size_t i = 0; i < targets.size(); ++i) targets[i] += moves[i];
+  return targets;
+}
+
+void move_boundary(const Connectivity& links, const std::vector<Vec3d>& targets, GuardedMesh& mesh, StageWatch& watch) {
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (i % kVerticesPerStep == 0) watch.step(0.5 * static_cast<double>(i) / static_cast<double>(targets.size()));
+    mesh.move(links.boundary[i], targets[i]);
+  }
+}
+
+/// Gauss-Seidel towards the harmonic positions, the boundary held.
+void relax_interior(const Connectivity& links, GuardedMesh& mesh, StageWatch& watch) {
+  for (int sweep = 0; sweep < kInteriorSweeps; ++sweep) {
+    for (std::size_t i = 0; i < links.interior.size(); ++i) {
+      if (i % kVerticesPerStep == 0) watch.step(0.5 + 0.5 * sweep / kInteriorSweeps);
+      const std::uint32_t v = links.interior[i];
+      Vec3d offset;
+      for (const std::uint32_t neighbour : links.neighbours[v]) offset += mesh.at(neighbour) - mesh.at(v);
+      mesh.move(v, mesh.at(v) + offset * (1 / static_cast<double>(links.neighbours[v].size())));
+    }
+  }
+}
+
+SmoothReport report_on(const Connectivity& links, const GuardedMesh& mesh, int passes) {
+  SmoothReport report;
+  report.passes = passes;
+  report.boundary_vertices = links.boundary.size();
+  report.shortened_moves = mesh.shortened_moves();
+  report.min_dihedral = mesh.min_dihedral();
+  for (std::size_t t = 0; t < mesh.mesh().tets.size(); ++t) {
+    report.volume_before += mesh.start_volume(t);
+    report.volume_after += mesh.volume(t);
+  }
+  for (const std::uint32_t v : links.boundary) {
+    double before = 0, after = 0;
+    for (const std::uint32_t tet : links.tets[v]) before += mesh.start_volume(tet), after += mesh.volume(tet);
+    report.boundary_volume_ratio.push_back(static_cast<float>(after / before));
+  }
+  return report;
+}
+
+}  // namespace
+
+SmoothResult smooth_tets(const TetMesh& mesh, const SmoothOptions& options, const Progress& progress) {
+  check(options);
+  StageWatch watch(progress, "smooth");
+  check(mesh);
+  const Connectivity links = connect(mesh);
+  const BoundaryFlow flow(links);
+  GuardedMesh moving(mesh, links, options.min_dihedral);
+  for (int pass = 0; pass < options.passes; ++pass) {
+    watch.enter_part(kShareOfPasses * pass / options.passes, kShareOfPasses * (pass + 1) / options.passes);
+    std::vector<Vec3d> targets = fair_boundary(links, moving, flow, options.strength);
+    restore_swept_volume(links, moving, flow, targets);
+    move_boundary(links, targets, moving, watch);
+    relax_interior(links, moving, watch);
+  }
+  watch.enter_part(kShareOfPasses, 1);
+  restore_total_volume(links, moving, watch);
+  return {moving.mesh(), report_on(links, moving, options.passes)};
+}
+
+}  // namespace tetsoup
