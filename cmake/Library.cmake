@@ -2,8 +2,9 @@
 
 function(tetsoup_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${TETSOUP_WERROR}>:-Werror>)
-  # Same bits on every instruction set: no contraction of a * b + c.
-  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  # Same bits on every instruction set: no contraction of a * b + c. The other two let loops with selects be vectorised and
+  # change no result.
+  target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 endfunction()
 
 function(tetsoup_add_library name)
@@ -15,7 +16,8 @@ function(tetsoup_add_library name)
   if(name STREQUAL "tetsoup" AND EXISTS ${PROJECT_SOURCE_DIR}/src/pipeline.cpp)
     list(APPEND sources ${PROJECT_SOURCE_DIR}/src/pipeline.cpp)
   endif()
-  add_library(${name} ${sources})
+  # Static whatever the surrounding project prefers: no symbol is exported for a shared one.
+  add_library(${name} STATIC ${sources})
   if(NOT TARGET tetsoup::${name})
     add_library(tetsoup::${name} ALIAS ${name})
   endif()

@@ -14,16 +14,17 @@ inline constexpr std::size_t kDihedralBins = 36;  ///< Of 5 degrees each.
 struct Quality {
   std::size_t vertex_count = 0;
   std::size_t tet_count = 0;
-  std::size_t inverted_tets = 0;  ///< Signed volume <= 0, or not a number.
-  std::size_t invalid_tets = 0;   ///< Index out of range, or a vertex used twice: counted, otherwise ignored.
-  std::size_t unused_vertices = 0;
-  double volume = 0;  ///< Sum of the signed volumes.
-  double min_tet_volume = 0, max_tet_volume = 0;
-  double min_dihedral = 0, max_dihedral = 0;                    ///< Radians; over all tets with a volume.
+  std::size_t inverted_tets = 0;    ///< Signed volume <= 0, or not a number.
+  std::size_t invalid_tets = 0;     ///< Index out of range, or a vertex used twice: counted, otherwise ignored.
+  std::size_t unused_vertices = 0;  ///< Of no tet, or of invalid tets only.
+  double volume = 0;                ///< Sum of the signed volumes; those that are not finite are left out.
+  double min_tet_volume = 0, max_tet_volume = 0;                ///< Signed; of the finite ones.
+  double min_dihedral = 0, max_dihedral = 0;                    ///< Radians; over all tets with a volume, of any sign.
   std::array<std::size_t, kDihedralBins> dihedral_histogram{};  ///< Six angles a tet.
-  double max_edge_ratio = 0;                                    ///< Longest over shortest edge of a tet, worst tet.
-  double mean_ratio_min = 0, mean_ratio_mean = 0;  ///< 12 (3 V)^(2/3) / sum of squared edges: 1 = regular, 0 = flat.
-  std::size_t components = 0;                      ///< Joined through shared faces.
+  double max_edge_ratio = 0;  ///< Longest over shortest edge of a tet, worst tet with a volume.
+  double mean_ratio_min = 0,
+         mean_ratio_mean = 0;  ///< 12 (3 V)^(2/3) / sum of squared edges: 1 = regular, 0 = flat or inverted.
+  std::size_t components = 0;  ///< Joined through shared faces.
   std::size_t boundary_triangles = 0;
   std::size_t boundary_vertices = 0;
   bool boundary_closed = false;  ///< Every boundary edge has an even number of boundary triangles, no face three tets.
@@ -33,16 +34,19 @@ struct Quality {
   std::size_t boundary_only_tets = 0;     ///< All four vertices on the boundary.
 };
 
-/// Measures a mesh, valid or not. Never throws on geometry.
+/// Measures a mesh, valid or not. Never throws on geometry; where there is nothing to measure a number stays 0.
 /// Cost: O(tets log tets).
 Quality measure_quality(const TetMesh& mesh);
 
-/// The mesh's outer and inner boundary triangles, counter-clockwise from outside, indices into the mesh's vertices, in
-/// the order of the tets.
+/// The mesh's outer and inner boundary triangles (faces of exactly one tet), counter-clockwise from outside a positive
+/// tet, indices into the mesh's vertices, in the order of the tets. Invalid tets have none.
 std::vector<Triangle> boundary_triangles(const TetMesh& mesh);
 
 /// Intersection over union of the voxels whose centre lies in the mesh with the `inside` voxels; 1 if both are empty.
-/// Cost: O(voxels in the tets' boxes).
+///
+/// Voxels that the mesh covers beyond the grid count as not inside, as far as the grid's longest side away from it. A
+/// centre within a millionth of a voxel of a tet lies in it; a tet without volume, or not finite, covers nothing.
+/// Cost: O(tets + voxels of the grid + rows of voxels in the tets' boxes); all threads.
 double intersection_over_union(const TetMesh& mesh, const BitGrid& inside);
 
 }  // namespace tetsoup

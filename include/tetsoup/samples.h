@@ -10,6 +10,10 @@
 
 namespace tetsoup {
 
+/// The torus the sample `torus` stands for: axis z, centred at the origin. Its box is 150 x 150 x 37.
+inline constexpr double kTorusMajorRadius = 56.5;
+inline constexpr double kTorusMinorRadius = 18.5;
+
 struct SampleOptions {
   double damage = 0;       ///< Share of the triangles removed at random, [0, 1).
   std::uint64_t seed = 1;  ///< Of the random removal and of the random parts of a shape.

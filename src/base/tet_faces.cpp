@@ -1,0 +1,66 @@
+#include "base/tet_faces.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/parallel.h"
+#include "base/tet_geometry.h"
+
+namespace tetsoup {
+
+namespace {
+
+Triangle face_of(const TetMesh& mesh, std::uint64_t slot) {
+  const Tet& tet = mesh.tets[slot / 4];
+  const auto& face = kTetFaces[slot % 4];
+  return {tet[static_cast<std::size_t>(face[0])], tet[static_cast<std::size_t>(face[1])],
+          tet[static_cast<std::size_t>(face[2])]};
+}
+
+}  // namespace
+
+bool is_valid_tet(const Tet& tet, std::size_t vertex_count) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (tet[i] >= vertex_count) return false;
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      if (tet[i] == tet[j]) return false;
+    }
+  }
+  return true;
+}
+
+std::vector<TetFace> sorted_faces(const TetMesh& mesh) {
+  std::vector<TetFace> faces;
+  faces.reserve(4 * mesh.tets.size());
+  for (std::uint64_t slot = 0; slot < 4 * mesh.tets.size(); ++slot) {
+    if (!is_valid_tet(mesh.tets[slot / 4], mesh.vertices.size())) continue;
+    TetFace face{face_of(mesh, slot), slot};
+    std::sort(face.corners.begin(), face.corners.end());
+    faces.push_back(face);
+  }
+  parallel_sort(faces.begin(), faces.end(), [](const TetFace& a, const TetFace& b) {
+    return std::tie(a.corners, a.slot) < std::tie(b.corners, b.slot);
+  });
+  return faces;
+}
+
+std::size_t face_run_end(const std::vector<TetFace>& faces, std::size_t begin) {
+  std::size_t end = begin + 1;
+  while (end < faces.size() && faces[end].corners == faces[begin].corners) ++end;
+  return end;
+}
+
+std::vector<Triangle> lone_faces(const TetMesh& mesh, const std::vector<TetFace>& faces) {
+  std::vector<std::uint64_t> slots;
+  for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
+    end = face_run_end(faces, begin);
+    if (end - begin == 1) slots.push_back(faces[begin].slot);
+  }
+  std::sort(slots.begin(), slots.end());
+  std::vector<Triangle> triangles;
+  triangles.reserve(slots.size());
+  for (const std::uint64_t slot : slots) triangles.push_back(face_of(mesh, slot));
+  return triangles;
+}
+
+}  // namespace tetsoup

@@ -1,0 +1,94 @@
+#include "distance/band_raster.h"
+
+#include <cmath>
+#include <vector>
+
+namespace tetsoup {
+namespace {
+
+constexpr int kSlab = 4;  ///< Layers of voxels that one task owns.
+
+struct IndexRange {
+  int begin, end;
+};
+
+/// Voxels of [0, size) within `band` of [lo, hi].
+IndexRange reach(float lo, float hi, float band, int size) {
+  return {std::max(0, static_cast<int>(std::ceil(lo - band))),
+          std::min(size, static_cast<int>(std::floor(hi + band)) + 1)};
+}
+
+struct Extent {
+  Vec3 lo, hi;
+};
+
+Extent extent_of(const kernel::TrianglePlan& t) {
+  const auto& [a, b, c] = t.corner;
+  return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+          {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
+}
+
+/// Part of `x` where the row (., y, z) is within `band` of the triangle's plane, so that a large slanted triangle
+/// touches its neighbourhood only and not its whole box. A voxel of slack absorbs rounding.
+IndexRange near_plane(const kernel::TrianglePlan& t, int y, int z, float band, IndexRange x) {
+  const Vec3& n = t.normal;
+  constexpr float kFlat = 0.02F;  // a steeper plane cuts less than a fiftieth off the row
+  if (std::abs(n.x) < kFlat) return x;
+  const Vec3& a = t.corner[0];
+  const float rest = (static_cast<float>(y) - a.y) * n.y + (static_cast<float>(z) - a.z) * n.z;
+  const float centre = a.x - rest / n.x, half = (band + 1) / std::abs(n.x);
+  const auto limit = [&](float v) { return std::clamp(v, -1.0F, 1e9F); };
+  return {std::max(x.begin, static_cast<int>(limit(centre - half))),
+          std::min(x.end, static_cast<int>(limit(centre + half)) + 2)};
+}
+
+void raster_triangle(const kernel::TrianglePlan& t, float band, IndexRange layers, Grid<float>& squares) {
+  const Extent box = extent_of(t);
+  const IndexRange xs = reach(box.lo.x, box.hi.x, band, squares.frame.size[0]);
+  const IndexRange ys = reach(box.lo.y, box.hi.y, band, squares.frame.size[1]);
+  IndexRange zs = reach(box.lo.z, box.hi.z, band, squares.frame.size[2]);
+  zs = {std::max(zs.begin, layers.begin), std::min(zs.end, layers.end)};
+  for (int z = zs.begin; z < zs.end; ++z) {
+    for (int y = ys.begin; y < ys.end; ++y) {
+      const IndexRange x = near_plane(t, y, z, band, xs);
+      if (x.begin >= x.end) continue;
+      kernel::lower_row(
+          t, x.begin, y, z,
+          {squares.values.data() + squares.index(x.begin, y, z), static_cast<std::size_t>(x.end - x.begin)});
+    }
+  }
+}
+
+/// Which triangles reach into each slab.
+std::vector<std::vector<std::uint32_t>> bin_by_slab(std::span<const kernel::TrianglePlan> triangles, float band,
+                                                    int nz) {
+  std::vector<std::vector<std::uint32_t>> bins(static_cast<std::size_t>((nz + kSlab - 1) / kSlab));
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Extent box = extent_of(triangles[i]);
+    const IndexRange z = reach(box.lo.z, box.hi.z, band, nz);
+    for (int slab = z.begin / kSlab; slab * kSlab < z.end; ++slab)
+      bins[static_cast<std::size_t>(slab)].push_back(static_cast<std::uint32_t>(i));
+  }
+  return bins;
+}
+
+}  // namespace
+
+void raster_band(std::span<const kernel::TrianglePlan> triangles, float band_voxels, Grid<float>& squares,
+                 StageWatch& watch) {
+  const int nz = squares.frame.size[2];
+  const auto bins = bin_by_slab(triangles, band_voxels, nz);
+  const auto layer = static_cast<std::size_t>(squares.frame.size[0]) * static_cast<std::size_t>(squares.frame.size[1]);
+  parallel_for(static_cast<std::int64_t>(bins.size()), 1, watch, [&](std::int64_t slab, std::int64_t) {
+    const IndexRange layers{static_cast<int>(slab) * kSlab, std::min(nz, (static_cast<int>(slab) + 1) * kSlab)};
+    std::fill(squares.values.begin() + static_cast<std::ptrdiff_t>(layer) * layers.begin,
+              squares.values.begin() + static_cast<std::ptrdiff_t>(layer) * layers.end, 1e30F);
+    std::size_t count = 0;
+    for (const std::uint32_t i : bins[static_cast<std::size_t>(slab)]) {
+      raster_triangle(triangles[i], band_voxels, layers, squares);
+      if (++count % 256 == 0 && watch.stopped()) return;
+    }
+  });
+}
+
+}  // namespace tetsoup

@@ -1,0 +1,122 @@
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "base/require.h"
+#include "distance/band_raster.h"
+#include "distance/farthest_voxel.h"
+#include "distance/triangle_tree.h"
+#include "tetsoup/distance.h"
+
+namespace tetsoup {
+namespace {
+
+using kernel::TrianglePlan;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::int64_t kValuesPerTask = 1 << 16;
+
+/// The soup in voxel units: voxel centres are the whole numbers. Planned from double coordinates, so position and scale
+/// of the soup cost no precision here.
+std::vector<TrianglePlan> plan_triangles(const CleanSoup& soup, const GridFrame& frame, StageWatch& watch) {
+  std::vector<Vec3> vertices(soup.soup.vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    vertices[i] = to_float((to_double(soup.soup.vertices[i]) - frame.origin) * (1 / frame.voxel_size));
+  const auto& triangles = soup.soup.triangles;
+  std::vector<TrianglePlan> plans(triangles.size());
+  parallel_for(static_cast<std::int64_t>(triangles.size()), 4096, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      plans[i] = kernel::plan_triangle(vertices[triangles[i][0]], vertices[triangles[i][1]], vertices[triangles[i][2]]);
+  });
+  return plans;
+}
+
+/// Squared voxels to lengths; infinity where the band ends.
+float to_length(float square, float band_squared, float voxel_size) {
+  return square < band_squared ? std::sqrt(square) * voxel_size : kInfinity;
+}
+
+void squares_to_lengths(std::vector<float>& values, float band_squared, float voxel_size, StageWatch& watch) {
+  parallel_for(static_cast<std::int64_t>(values.size()), kValuesPerTask, watch,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+                   values[i] = to_length(values[i], band_squared, voxel_size);
+               });
+}
+
+/// Asks the tree for every voxel that is still unknown. Along a row the last answer plus one step bounds the next.
+void fill_unknown(const TriangleTree& tree, float band_squared, Grid<float>& distance, StageWatch& watch) {
+  const GridFrame& frame = distance.frame;
+  const auto voxel_size = static_cast<float>(frame.voxel_size);
+  const std::int64_t rows = static_cast<std::int64_t>(frame.size[1]) * frame.size[2];
+  parallel_for(rows, 2, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t row = begin; row < end; ++row) {
+      const int y = static_cast<int>(row % frame.size[1]), z = static_cast<int>(row / frame.size[1]);
+      float* values = distance.values.data() + distance.index(0, y, z);
+      float bound = band_squared;
+      for (int x = 0; x < frame.size[0]; ++x) {
+        if (!(values[x] < kInfinity)) {
+          const float square =
+              tree.nearest_squared(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), bound);
+          values[x] = to_length(square, band_squared, voxel_size);
+        }
+        const float next = (values[x] / voxel_size + 1.001F) * 1.001F;
+        bound = std::min(band_squared, next * next);
+      }
+      if (watch.stopped()) return;
+    }
+  });
+}
+
+float squared_band(double band_voxels) {
+  const auto band = static_cast<float>(std::min(band_voxels, 1e6));  // beyond any grid
+  return band * band;
+}
+
+}  // namespace
+
+DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& options, const Progress& progress) {
+  DistanceField field;
+  field.distance.frame = make_grid(soup, options);
+  const GridFrame& frame = field.distance.frame;
+  StageWatch watch(progress, "distance");
+  watch.enter_part(0, 0.02);
+  const std::vector<TrianglePlan> triangles = plan_triangles(soup, frame, watch);
+
+  field.distance.values.resize(frame.voxel_count());
+  watch.enter_part(0.02, 0.7);
+  raster_band(triangles, static_cast<float>(options.band_voxels), field.distance, watch);
+  watch.enter_part(0.7, 0.75);
+  squares_to_lengths(field.distance.values, squared_band(options.band_voxels), static_cast<float>(frame.voxel_size),
+                     watch);
+  field.band = options.band_voxels * frame.voxel_size;
+
+  watch.enter_part(0.75, 1);
+  const TriangleTree tree(triangles);
+  const float farthest = farthest_voxel_squared(tree, frame, watch);
+  field.d_max = static_cast<double>(std::sqrt(farthest) * static_cast<float>(frame.voxel_size));
+  if (options.mode == DistanceMode::Full) {
+    fill_unknown(tree, squared_band(std::numeric_limits<double>::infinity()), field.distance, watch);
+    field.band = std::numeric_limits<double>::infinity();
+  }
+  return field;
+}
+
+void widen_distance(DistanceField& field, const CleanSoup& soup, double band_voxels, const Progress& progress) {
+  const GridFrame& frame = field.distance.frame;
+  if (band_voxels * frame.voxel_size <= field.band) return;
+  StageWatch watch(progress, "distance");
+  try {
+    watch.enter_part(0, 0.05);
+    const TriangleTree tree(plan_triangles(soup, frame, watch));
+    watch.enter_part(0.05, 1);
+    fill_unknown(tree, squared_band(band_voxels), field.distance, watch);
+  } catch (...) {
+    const auto known = static_cast<float>(field.band);
+    for (float& d : field.distance.values)
+      if (!(d < known)) d = kInfinity;
+    throw;
+  }
+  field.band = band_voxels * frame.voxel_size;
+}
+
+}  // namespace tetsoup

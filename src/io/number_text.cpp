@@ -1,0 +1,76 @@
+#include "io/number_text.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <system_error>
+
+namespace tetsoup {
+
+namespace {
+
+// libc++ before 14 has neither direction for floating point; there the C library serves, which the locale may confuse.
+#ifdef __cpp_lib_to_chars
+
+template <class Real>
+void append_shortest(std::string& text, Real value) {
+  char digits[48];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+float out_of_range_value(std::string_view word) {
+  double wide = 0;
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), wide);
+  const bool tiny = result.ec == std::errc::result_out_of_range
+                        ? word.find("e-") != word.npos || word.find("E-") != word.npos
+                        : std::abs(wide) < 1;
+  const float size = tiny ? 0.0F : std::numeric_limits<float>::infinity();
+  return word.starts_with('-') ? -size : size;
+}
+
+bool parse_plain(std::string_view word, float& value) {
+  const char* end = word.data() + word.size();
+  const auto result = std::from_chars(word.data(), end, value);
+  if (result.ec == std::errc::result_out_of_range) value = out_of_range_value(word);
+  return result.ec != std::errc::invalid_argument && result.ptr == end;
+}
+
+#else
+
+template <class Real>
+void append_shortest(std::string& text, Real value) {
+  char digits[48];
+  const int length =
+      std::snprintf(digits, sizeof digits, "%.*g", std::numeric_limits<Real>::max_digits10, static_cast<double>(value));
+  for (char* c = digits; c != digits + length; ++c)
+    if (*c == ',') *c = '.';
+  text.append(digits, static_cast<std::size_t>(length));
+}
+
+bool parse_plain(std::string_view word, float& value) {
+  if (word.find_first_of("xX") != word.npos) return false;
+  const std::string copy(word);
+  char* end = nullptr;
+  value = std::strtof(copy.c_str(), &end);
+  return !copy.empty() && end == copy.c_str() + copy.size();
+}
+
+#endif
+
+}  // namespace
+
+void append_number(std::string& text, float value) {
+  append_shortest(text, value);
+}
+
+void append_number(std::string& text, double value) {
+  append_shortest(text, value);
+}
+
+bool parse_real(std::string_view word, float& value) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  return parse_plain(word, value);
+}
+
+}  // namespace tetsoup

@@ -1,0 +1,32 @@
+// Numbers to text and back: shortest form that reads back to the same bits, whatever the locale.
+#pragma once
+
+#include <charconv>
+#include <concepts>
+#include <string>
+#include <string_view>
+
+namespace tetsoup {
+
+void append_number(std::string& text, float value);
+void append_number(std::string& text, double value);
+
+template <std::integral Integer>
+void append_number(std::string& text, Integer value) {
+  char digits[24];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+/// Numbers with a blank between them, then a newline.
+template <class First, class... Rest>
+void append_line(std::string& text, First first, Rest... rest) {
+  append_number(text, first);
+  ((text += ' ', append_number(text, rest)), ...);
+  text += '\n';
+}
+
+/// Nearest float to the number that is the whole of `word`; beyond its range that is infinity or zero. False if it is
+/// no number.
+bool parse_real(std::string_view word, float& value);
+
+}  // namespace tetsoup

@@ -1,0 +1,122 @@
+// Which reader takes a file: by content where that is certain, else by extension.
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <system_error>
+
+#include "io/soup_readers.h"
+#include "tetsoup/error.h"
+#include "tetsoup/io.h"
+
+namespace tetsoup {
+namespace readers {
+
+void fail(std::string_view name, const std::string& what) {
+  throw IoError(std::string(name) + ": " + what);
+}
+void fail_at_line(std::string_view name, std::size_t line, const std::string& what) {
+  throw IoError(std::string(name) + ", line " + std::to_string(line) + ": " + what);
+}
+void fail_at_byte(std::string_view name, std::size_t byte, const std::string& what) {
+  throw IoError(std::string(name) + ", byte " + std::to_string(byte) + ": " + what);
+}
+
+std::vector<std::byte> read_whole_file(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const auto fail_for_reason = [&](int reason) { fail(name, std::generic_category().message(reason)); };
+  std::error_code ignored;
+  if (std::filesystem::is_character_file(path, ignored)) fail(name, "is a device, not a file");
+  errno = 0;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), &std::fclose);
+  if (!file) fail_for_reason(errno);
+
+  // The size is only a hint: pipes have none, and a file may grow meanwhile.
+  constexpr std::size_t kSmallest = 1 << 16;
+  const std::uintmax_t hint = std::filesystem::file_size(path, ignored);
+  std::vector<std::byte> bytes(ignored ? kSmallest
+                                       : std::max<std::size_t>(kSmallest, static_cast<std::size_t>(hint) + 1));
+  std::size_t used = 0;
+  while (const std::size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, file.get())) {
+    used += got;
+    if (used == bytes.size()) bytes.resize(2 * used);
+  }
+  if (std::ferror(file.get())) fail_for_reason(errno);
+  if (used == 0) fail(name, "is empty");
+  bytes.resize(used);
+  return bytes;
+}
+
+namespace {
+
+constexpr const char* kKnownExtensions = "known: .obj .stl .ply .off .gltf .glb";
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view text) {
+  return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
+}
+
+std::optional<SoupFormat> format_of_content(std::span<const std::byte> bytes) {
+  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return SoupFormat::Ply;
+  if (starts_with(bytes, "glTF")) return SoupFormat::Gltf;
+  if (is_off(bytes)) return SoupFormat::Off;
+  if (is_stl(bytes)) return SoupFormat::Stl;
+  return {};
+}
+
+std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+  if (extension == ".obj") return SoupFormat::Obj;
+  if (extension == ".stl") return SoupFormat::Stl;
+  if (extension == ".ply") return SoupFormat::Ply;
+  if (extension == ".off") return SoupFormat::Off;
+  if (extension == ".gltf" || extension == ".glb") return SoupFormat::Gltf;
+  return {};
+}
+
+TriangleSoup parse(const Source& source, SoupFormat format, const std::optional<std::filesystem::path>& folder) {
+  if (source.bytes.empty()) fail(source.name, "is empty");
+  TriangleSoup soup;
+  switch (format) {
+    case SoupFormat::Obj:
+      soup = read_obj(source);
+      break;
+    case SoupFormat::Stl:
+      soup = read_stl(source);
+      break;
+    case SoupFormat::Ply:
+      soup = read_ply(source);
+      break;
+    case SoupFormat::Off:
+      soup = read_off(source);
+      break;
+    case SoupFormat::Gltf:
+      soup = read_gltf(source, folder);
+      break;
+  }
+  if (soup.vertices.size() >= kNoVertex) fail(source.name, "more vertices than 32-bit indices can name");
+  return soup;
+}
+
+}  // namespace
+}  // namespace readers
+
+TriangleSoup parse_soup(std::span<const std::byte> bytes, SoupFormat format, std::string_view name) {
+  return readers::parse({bytes, name}, format, {});
+}
+
+TriangleSoup read_soup(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = readers::read_whole_file(path);
+  const std::string name = path.string();
+  std::optional<SoupFormat> format = readers::format_of_content(bytes);
+  if (!format) format = readers::format_of_extension(path);
+  if (!format) {
+    const std::string extension = path.extension().string();
+    readers::fail(name, (extension.empty() ? std::string("no extension") : "unknown extension '" + extension + "'") +
+                            " and unknown content; " + readers::kKnownExtensions);
+  }
+  return readers::parse({bytes, name}, *format, path.parent_path());
+}
+
+}  // namespace tetsoup

@@ -1,0 +1,18 @@
+// The readers of tet meshes, each from a file's bytes in memory; `name` stands for the path in errors.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+TetMesh parse_msh(std::string_view text, const std::string& name);    ///< MSH 2.2 and 4.1, ASCII and binary.
+TetMesh parse_vtk(std::string_view text, const std::string& name);    ///< Legacy VTK up to 5.1, ASCII and binary.
+TetMesh parse_vtu(std::string_view text, const std::string& name);    ///< ASCII, base64 and raw, uncompressed.
+TetMesh parse_medit(std::string_view text, const std::string& name);  ///< ASCII.
+TetMesh parse_tetgen(std::string_view nodes, const std::string& nodes_name, std::string_view tets,
+                     const std::string& tets_name);
+
+}  // namespace tetsoup

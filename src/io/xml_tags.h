@@ -1,0 +1,24 @@
+// The tags of an XML file one after another: as much XML as VTK's files need, and no more.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/tet_scanner.h"
+
+namespace tetsoup {
+
+struct XmlTag {
+  std::string_view name;        ///< With a leading '/' for an end tag.
+  std::string_view attributes;  ///< Everything behind the name.
+  bool empty = false;           ///< Ends with "/>".
+
+  /// Value of an attribute, empty if it is not there.
+  std::string_view attribute(std::string_view key) const;
+};
+
+/// Next tag; the scanner then stands behind it. Declarations and comments are skipped. Nothing at the end of the file.
+std::optional<XmlTag> next_tag(TetScanner& in);
+
+}  // namespace tetsoup

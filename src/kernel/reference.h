@@ -1,0 +1,66 @@
+// The obvious twins of everything that is fast elsewhere: the oracle that tests compare with, bit for bit. Never called by
+// the library itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "tetsoup/types.h"
+
+namespace tetsoup::reference {
+
+/// The 13 axes of the 26 neighbour directions.
+inline std::vector<std::array<int, 3>> ray_axes() {
+  std::vector<std::array<int, 3>> axes;
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        if (dz > 0 || (dz == 0 && (dy > 0 || (dy == 0 && dx > 0)))) axes.push_back({dx, dy, dz});
+  return axes;
+}
+
+/// Walks one ray from voxel to voxel through the grid and counts the voxels it calls inside [Spillmann06 §3].
+inline void walk_ray(const Grid<float>& distance, float band, bool at_entry, std::array<int, 3> at,
+                     const std::array<int, 3>& step, Grid<std::uint8_t>& votes) {
+  const auto value = [&](int sign) {
+    const int x = at[0] + sign * step[0], y = at[1] + sign * step[1], z = at[2] + sign * step[2];
+    return distance.frame.contains(x, y, z) ? distance.at(x, y, z) : std::numeric_limits<float>::infinity();
+  };
+  bool inside = false, fired = false;
+  for (; distance.frame.contains(at[0], at[1], at[2]); at = {at[0] + step[0], at[1] + step[1], at[2] + step[2]}) {
+    const float here = value(0), next = value(1), previous = value(-1);
+    bool flip_after = false;
+    if (!(here < band)) {
+      fired = false;
+    } else if (!fired && (at_entry || next >= here)) {
+      fired = true;
+      flip_after = !at_entry && next < previous;
+      if (!flip_after) inside = !inside;
+    }
+    votes.values[votes.index(at[0], at[1], at[2])] =
+        static_cast<std::uint8_t>(votes.at(at[0], at[1], at[2]) + (inside ? 1 : 0));
+    if (flip_after) inside = !inside;
+  }
+}
+
+/// Votes of 26 rays (or 13) through every voxel: a ray starts wherever its predecessor lies beyond the grid.
+inline Grid<std::uint8_t> count_votes(const Grid<float>& distance, float band, int rays, bool at_entry) {
+  Grid<std::uint8_t> votes{distance.frame, std::vector<std::uint8_t>(distance.values.size())};
+  const auto [nx, ny, nz] = distance.frame.size;
+  for (const auto& axis : ray_axes()) {
+    for (const int sign : {1, -1}) {
+      if (sign < 0 && rays == 13) continue;
+      const std::array<int, 3> step{sign * axis[0], sign * axis[1], sign * axis[2]};
+      for (int z = 0; z < nz; ++z)
+        for (int y = 0; y < ny; ++y)
+          for (int x = 0; x < nx; ++x)
+            if (!distance.frame.contains(x - step[0], y - step[1], z - step[2]))
+              walk_ray(distance, band, at_entry, {x, y, z}, step, votes);
+    }
+  }
+  return votes;
+}
+
+}  // namespace tetsoup::reference

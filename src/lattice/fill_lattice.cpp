@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/require.h"
+#include "base/tet_geometry.h"
+#include "lattice/kept_cells.h"
+
+namespace tetsoup {
+namespace {
+
+constexpr int kMaxCells = 1024;
+constexpr double kMaxTets = 2147483648.0;
+constexpr double kDefaultTets = 2000;  ///< What the default cell edge aims at.
+constexpr double kGoodEnough = 0.04;   ///< Relative distance to the aim at which the search for the edge ends.
+constexpr int kMaxFills = 8;           ///< Tries of the search.
+constexpr double kSmallestCellVoxels =
+    0.75;  ///< The search makes no cells smaller: they would see no more of the shape.
+
+void check_options(const LatticeOptions& o) {
+  if (o.cells && o.cell_size) throw InvalidInput("give cells or cell_size, not both");
+  require(!o.cells || (*o.cells >= 1 && *o.cells <= kMaxCells), "cells", o.cells.value_or(0), "1 to 1024");
+  require(!o.cell_size || (*o.cell_size > 0 && std::isfinite(*o.cell_size)), "cell_size", o.cell_size.value_or(0),
+          "positive and finite");
+  require(o.rho_min > 0 && o.rho_min <= 1, "rho_min", o.rho_min, "above 0 and at most 1");
+  const auto is_bounded = [](const Vec3d& v) {
+    constexpr double kLimit = 1e6;  // whole cells or turns beyond that only lose digits
+    return std::abs(v.x) <= kLimit && std::abs(v.y) <= kLimit && std::abs(v.z) <= kLimit;
+  };
+  require(is_bounded(o.translate_cells), "translate_cells", o.translate_cells.x, "finite, at most 1e6");
+  require(is_bounded(o.rotate), "rotate", o.rotate.x, "finite, at most 1e6");
+}
+
+double longest_edge(const Box3& box) {
+  const Vec3d e = box.hi - box.lo;
+  return std::max({e.x, e.y, e.z});
+}
+
+struct Fill {
+  LatticeFrame frame;
+  KeptCells kept;
+  bool by_soup = false;
+};
+
+class Filler {
+ public:
+  Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options, StageWatch& watch)
+      : volume_(volume), soup_(soup), options_(options), watch_(watch), grid_(volume.inside.frame) {}
+
+  Fill with_cell_size(double cell_size) {
+    require(cell_size >= finest_cell_size(grid_), "cell_size", cell_size,
+            "at least " + std::to_string(finest_cell_size(grid_)) +
+                ", or single precision cannot hold the vertices so far from the origin");
+    Fill fill = try_density(cell_size);
+    return fill.kept.tet_count > 0 ? fill : try_soup(cell_size);
+  }
+
+  /// Looks for the edge that gives about the default count: by density, and along the soup where density leaves
+  /// nothing.
+  Fill with_default_size() {
+    const double tets = volume_.report.volume * kTetsPerCell / kDefaultTets;
+    if (volume_.report.inside_voxels > 0) {
+      Fill fill = search(std::cbrt(tets), 3, [&](double size) { return try_density(size); });
+      if (fill.kept.tet_count > 0) return fill;
+    }
+    return search(longest_edge(grid_box(grid_)) / 16, 2, [&](double size) { return try_soup(size); });
+  }
+
+ private:
+  Fill try_density(double cell_size) {
+    Fill fill{make_checked_frame(cell_size), {}, false};
+    fill.kept = keep_dense_tets(volume_.inside, fill.frame, options_.rho_min, watch_);
+    return fill;
+  }
+  Fill try_soup(double cell_size) {
+    Fill fill{make_checked_frame(cell_size), {}, true};
+    fill.kept = keep_crossed_tets(soup_, fill.frame, watch_);
+    return fill;
+  }
+
+  LatticeFrame make_checked_frame(double cell_size) const {
+    const Box3 box = grid_box(grid_);
+    const Vec3d e = (box.hi - box.lo) * (1 / cell_size);
+    const double tets = (e.x + 1) * (e.y + 1) * (e.z + 1) * kTetsPerCell;
+    require(tets < kMaxTets && longest_edge(box) / cell_size <= 4 * kMaxCells, "cell_size", cell_size,
+            "large enough for at most 2^31 tets and 4096 cells along the longest axis");
+    return make_lattice_frame(grid_, options_, cell_size);
+  }
+
+  /// The count goes as edge^-power; each try corrects the edge by what the last one missed.
+  template <class Try>
+  Fill search(double cell_size, double power, const Try& try_size) {
+    const double smallest = std::max(kSmallestCellVoxels * grid_.voxel_size, finest_cell_size(grid_));
+    const double largest = longest_edge(grid_box(grid_));
+    Fill best;
+    double best_miss = 1e300;
+    for (int i = 0; i < kMaxFills; ++i) {
+      cell_size = std::clamp(cell_size, smallest, std::max(smallest, largest));
+      Fill fill = try_size(cell_size);
+      const double ratio = std::max(1.0, static_cast<double>(fill.kept.tet_count)) / kDefaultTets;
+      if (std::abs(std::log(ratio)) < best_miss) {
+        best_miss = std::abs(std::log(ratio));
+        best = std::move(fill);
+      }
+      if (std::abs(ratio - 1) < kGoodEnough) break;
+      const double previous = cell_size;
+      cell_size *= std::clamp(std::pow(ratio, 1 / power), 0.5, 2.0);
+      if (std::clamp(cell_size, smallest, std::max(smallest, largest)) == previous) break;
+    }
+    return best;
+  }
+
+  const PseudoVolume& volume_;
+  const CleanSoup& soup_;
+  const LatticeOptions& options_;
+  StageWatch& watch_;
+  const GridFrame& grid_;
+};
+
+/// Vertices in lattice order, tets by cell and then by number.
+TetMesh make_mesh(const Fill& fill) {
+  const LatticeFrame& frame = fill.frame;
+  Cell lo = fill.kept.cells.front().cell;
+  for (const KeptCell& k : fill.kept.cells)
+    for (std::size_t i = 0; i < 3; ++i) lo[i] = std::min(lo[i], k.cell[i]);
+  const auto key = [&](const Cell& cell, unsigned corner) {  // 21 bits an axis, z highest
+    const auto at = [&](std::size_t i) { return static_cast<std::uint64_t>(cell[i] - lo[i]) + (corner >> i & 1U); };
+    return at(2) << 42 | at(1) << 21 | at(0);
+  };
+
+  std::vector<std::uint64_t> names;
+  names.reserve(4 * fill.kept.tet_count);
+  for (const KeptCell& k : fill.kept.cells)
+    for (std::size_t t = 0; t < kTetsPerCell; ++t)
+      if (k.tets >> t & 1U)
+        for (const unsigned corner : tet_corners(t, is_odd(k.cell))) names.push_back(key(k.cell, corner));
+
+  std::vector<std::uint64_t> vertices = names;
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+
+  TetMesh mesh;
+  for (const std::uint64_t v : vertices) {
+    constexpr std::uint64_t kMask = (1U << 21) - 1;
+    const auto at = [&](std::size_t i) { return static_cast<double>(static_cast<int>(v >> (21 * i) & kMask) + lo[i]); };
+    mesh.vertices.push_back(to_float(frame.to_point({at(0), at(1), at(2)})));
+  }
+  mesh.tets.resize(fill.kept.tet_count);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    mesh.tets[i / 4][i % 4] =
+        static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), names[i]) - vertices.begin());
+  return mesh;
+}
+
+double volume_of(const TetMesh& mesh) {
+  double sum = 0;
+  for (const Tet& t : mesh.tets)
+    sum += signed_volume(to_double(mesh.vertices[t[0]]), to_double(mesh.vertices[t[1]]), to_double(mesh.vertices[t[2]]),
+                         to_double(mesh.vertices[t[3]]));
+  return sum;
+}
+
+}  // namespace
+
+LatticeMesh fill_lattice(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options,
+                         const Progress& progress) {
+  check_options(options);
+  if (soup.report.used_triangles == 0) throw InvalidInput("the soup has no finite triangle");
+  StageWatch watch(progress, "lattice");
+  Filler filler(volume, soup, options, watch);
+  const double longest = longest_edge(grid_box(volume.inside.frame));
+  const Fill fill = options.cells       ? filler.with_cell_size(longest / *options.cells)
+                    : options.cell_size ? filler.with_cell_size(*options.cell_size)
+                                        : filler.with_default_size();
+
+  LatticeMesh result;
+  result.mesh = make_mesh(fill);
+  LatticeReport& report = result.report;
+  report.cells = fill.frame.count;
+  report.cell_size = fill.frame.cell_size;
+  report.used_cells = fill.kept.cells.size();
+  report.tet_count = fill.kept.tet_count;
+  report.sampled_tets = fill.kept.sampled_tets;
+  report.kept_volume = volume_of(result.mesh);
+  report.pseudo_volume = volume.report.volume;
+  report.kept_by_soup = fill.by_soup;
+  return result;
+}
+
+}  // namespace tetsoup

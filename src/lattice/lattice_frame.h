@@ -1,0 +1,42 @@
+// Where the lattice's cells lie in space.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/vec.h"
+#include "tetsoup/lattice.h"
+
+namespace tetsoup {
+
+using Cell = std::array<int, 3>;
+
+/// Cell coordinates of a point are three numbers; their whole parts name the cell. Without translation, cells [0,
+/// count) lie centred over the soup's box.
+struct LatticeFrame {
+  double cell_size = 1;
+  std::array<Vec3d, 3> axes;  ///< Unit vectors along the lattice's axes.
+  Vec3d centre;               ///< Of the soup's box.
+  Vec3d centre_cell;          ///< Cell coordinates of the centre.
+  Cell count{};               ///< Cells over the box.
+  Cell begin{}, end{};        ///< Cells over the whole grid, padding included.
+
+  Vec3d to_cell(const Vec3d& point) const {
+    const Vec3d p = (point - centre) * (1 / cell_size);
+    return Vec3d{dot(p, axes[0]), dot(p, axes[1]), dot(p, axes[2])} + centre_cell;
+  }
+  Vec3d to_point(const Vec3d& cell) const {
+    const Vec3d c = (cell - centre_cell) * cell_size;
+    return centre + axes[0] * c.x + axes[1] * c.y + axes[2] * c.z;
+  }
+};
+
+/// The box of the grid's voxels without padding: the soup's own box, or a voxel where that has no extent.
+Box3 grid_box(const GridFrame& grid);
+
+LatticeFrame make_lattice_frame(const GridFrame& grid, const LatticeOptions& options, double cell_size);
+
+/// Smallest cell edge at which single-precision vertices of this grid's space still make well-shaped tets.
+double finest_cell_size(const GridFrame& grid);
+
+}  // namespace tetsoup

@@ -1,0 +1,113 @@
+#include "tetsoup/pipeline.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "base/require.h"
+#include "tetsoup/tetsoup.h"
+
+namespace tetsoup {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::size_t index_of(Stage stage) {
+  return static_cast<std::size_t>(stage);
+}
+
+void check_memory(const CleanSoup& soup, const MeshOptions& options) {
+  if (!options.memory_limit) return;
+  const GridFrame frame = make_grid(soup, options.distance);
+  const std::size_t needed = grid_memory(frame), limit = *options.memory_limit;
+  if (needed <= limit) return;
+  const int longest = std::max({frame.size[0], frame.size[1], frame.size[2]}) - 2 * frame.pad;
+  const double shrink = std::cbrt(static_cast<double>(limit) / static_cast<double>(needed));
+  const int fits = std::max(1, static_cast<int>((longest + 2 * frame.pad) * shrink) - 2 * frame.pad - 1);
+  char text[256];
+  std::snprintf(text, sizeof text, "voxels = %d needs %.2f GB of memory, must be at most %d to fit into %.2f GB",
+                longest, static_cast<double>(needed) * 1e-9, fits, static_cast<double>(limit) * 1e-9);
+  throw InvalidInput(text);
+}
+
+}  // namespace
+
+std::size_t grid_memory(const GridFrame& frame) {
+  // Float distance, votes as bytes; bit-sliced votes of two candidates, and a handful of bit grids.
+  return frame.voxel_count() * (4 + 1) + frame.voxel_count() / 8 * (2 * 5 + 7);
+}
+
+Pipeline::Pipeline(const TriangleSoup& soup, const Progress& progress) {
+  const Stopwatch stopwatch;
+  soup_ = clean_soup(soup, progress);
+  seconds_[index_of(Stage::Soup)] = stopwatch.seconds();
+  run_counts_[index_of(Stage::Soup)] = 1;
+}
+
+std::size_t Pipeline::run_count(Stage stage) const {
+  return run_counts_[index_of(stage)];
+}
+double Pipeline::seconds(Stage stage) const {
+  return seconds_[index_of(stage)];
+}
+
+const SmoothResult& Pipeline::run(const MeshOptions& options, const Progress& progress) {
+  run_until(Stage::Smooth, options, progress);
+  return *smooth_;
+}
+
+void Pipeline::run_until(Stage last, const MeshOptions& options, const Progress& progress) {
+  const auto timed = [&](Stage stage, const auto& body) {
+    const Stopwatch stopwatch;
+    body();
+    seconds_[index_of(stage)] = stopwatch.seconds();
+    ++run_counts_[index_of(stage)];
+  };
+  // What a changed option invalidates goes first, so that a cancelled run leaves no result that does not match.
+  if (!(options.distance == options_.distance)) distance_.reset();
+  if (!distance_ || !(options.pseudo_volume == options_.pseudo_volume)) volume_.reset();
+  if (!volume_ || !(options.lattice == options_.lattice)) lattice_.reset();
+  if (!lattice_ || !(options.smooth == options_.smooth)) smooth_.reset();
+  options_ = options;
+
+  if (!distance_) {
+    if (soup_.report.used_triangles == 0) throw InvalidInput("the soup has no finite triangle");
+    check_memory(soup_, options);
+    timed(Stage::Distance, [&] { distance_ = unsigned_distance(soup_, options.distance, progress); });
+  }
+  if (last == Stage::Distance) return;
+  if (!volume_) {
+    const auto widen = [&](bool wide) {
+      const Stopwatch stopwatch;
+      widen_distance(*distance_, soup_, band_needed_voxels(*distance_, options.pseudo_volume, wide), progress);
+      seconds_[index_of(Stage::Distance)] += stopwatch.seconds();
+    };
+    const auto classify = [&] {
+      timed(Stage::PseudoVolume, [&] { volume_ = classify_volume(*distance_, options.pseudo_volume, progress); });
+    };
+    widen(false);
+    classify();
+    if (volume_->report.wants_wider_band) {
+      volume_.reset();
+      widen(true);
+      classify();
+    }
+  }
+  if (last == Stage::PseudoVolume) return;
+  if (!lattice_) timed(Stage::Lattice, [&] { lattice_ = fill_lattice(*volume_, soup_, options.lattice, progress); });
+  if (last == Stage::Lattice) return;
+  if (!smooth_) timed(Stage::Smooth, [&] { smooth_ = smooth_tets(lattice_->mesh, options.smooth, progress); });
+}
+
+TetMesh mesh_soup(const TriangleSoup& soup, const MeshOptions& options, const Progress& progress) {
+  Pipeline pipeline(soup, progress);
+  return pipeline.run(options, progress).mesh;
+}
+
+}  // namespace tetsoup

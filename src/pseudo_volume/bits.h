@@ -1,0 +1,54 @@
+// Arithmetic on rows of bits, 64 voxels a word.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+inline std::size_t words_for(int voxels) {
+  return (static_cast<std::size_t>(voxels) + 63) / 64;
+}
+
+/// Bits of word `w` of a row that belong to voxels.
+inline std::uint64_t row_mask(int voxels, std::size_t w) {
+  const std::size_t begin = 64 * w, size = static_cast<std::size_t>(voxels);
+  return size - begin >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << (size - begin)) - 1;
+}
+
+inline BitGrid make_bit_grid(const GridFrame& frame) {
+  BitGrid grid;
+  grid.frame = frame;
+  grid.words_per_row = words_for(frame.size[0]);
+  grid.words.resize(grid.words_per_row * static_cast<std::size_t>(frame.size[1]) *
+                    static_cast<std::size_t>(frame.size[2]));
+  return grid;
+}
+
+/// Word `w` of the row moved one voxel towards higher x (bit i holds what bit i - 1 held); zero comes in.
+inline std::uint64_t shifted_up(const std::uint64_t* row, std::size_t w) {
+  return row[w] << 1 | (w > 0 ? row[w - 1] >> 63 : 0);
+}
+/// Word `w` of the row moved one voxel towards lower x.
+inline std::uint64_t shifted_down(const std::uint64_t* row, std::size_t w, std::size_t words) {
+  return row[w] >> 1 | (w + 1 < words ? row[w + 1] << 63 : 0);
+}
+
+/// Bit i of the result is the exclusive or of bits 0..i.
+inline std::uint64_t prefix_parity(std::uint64_t v) {
+  for (int shift = 1; shift < 64; shift *= 2) v ^= v << shift;
+  return v;
+}
+
+inline std::uint64_t reversed(std::uint64_t v) {
+  v = (v >> 1 & 0x5555555555555555U) | (v & 0x5555555555555555U) << 1;
+  v = (v >> 2 & 0x3333333333333333U) | (v & 0x3333333333333333U) << 2;
+  v = (v >> 4 & 0x0F0F0F0F0F0F0F0FU) | (v & 0x0F0F0F0F0F0F0F0FU) << 4;
+  v = (v >> 8 & 0x00FF00FF00FF00FFU) | (v & 0x00FF00FF00FF00FFU) << 8;
+  v = (v >> 16 & 0x0000FFFF0000FFFFU) | (v & 0x0000FFFF0000FFFFU) << 16;
+  return v >> 32 | v << 32;
+}
+
+}  // namespace tetsoup

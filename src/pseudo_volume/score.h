@@ -1,0 +1,38 @@
+// How good is a choice of the band? Judged from the votes alone, without knowing the true solid.
+#pragma once
+
+#include <vector>
+
+#include "base/parallel.h"
+#include "pseudo_volume/votes.h"
+#include "tetsoup/distance.h"
+#include "tetsoup/pseudo_volume.h"
+
+namespace tetsoup {
+
+/// Inside bits of a vote: a strict majority of the rays.
+BitGrid majority(const GridFrame& frame, const std::vector<VoteWord>& votes, int rays);
+
+/// Voxels whose distance is below `limit`, without the padding.
+BitGrid mark_below(const Grid<float>& distance, float limit);
+
+/// What the score needs of the soup, the same for all candidates.
+struct SoupMarks {
+  BitGrid near;      ///< Within 1.2 voxels of the soup.
+  BitGrid touched;   ///< Within 0.6 voxels.
+  BitGrid unpadded;  ///< Voxels of the soup's box: padding must not change the choice.
+};
+SoupMarks mark_soup(const Grid<float>& distance);
+
+struct VoteStatistics {
+  std::size_t inside = 0;
+  double consensus_inside = 0, consensus_outside = 0;  ///< Mean of |2 votes / rays - 1|.
+  double consensus = 0;
+};
+VoteStatistics summarize_votes(const BitGrid& inside, const BitGrid& unpadded, const std::vector<VoteWord>& votes,
+                               int rays);
+
+/// The score of docs/METHOD.md: both sides agree, the boundary runs along the soup, the soup is covered.
+double score_votes(const BitGrid& inside, const SoupMarks& marks, const VoteStatistics& statistics);
+
+}  // namespace tetsoup
