@@ -60,7 +60,7 @@ void run_field(FieldCommand& command) {
 void add_field_command(CLI::App& app) {
   const auto command = std::make_shared<FieldCommand>();
   CLI::App* const field = app.add_subcommand("field", "Write distance, votes and inside bits on a grid");
-  field->footer(kExamples);
+  field->group("Commands")->footer(kExamples);
   field->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb")->required()->option_text(" ");
   field->add_option("-o,--output", command->output, "File for the grids: .vti")->required()->option_text("OUT");
   add_grid_flags(*field, command->options.distance);

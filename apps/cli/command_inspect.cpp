@@ -69,7 +69,7 @@ void run_inspect(const InspectCommand& command) {
 void add_inspect_command(CLI::App& app) {
   const auto command = std::make_shared<InspectCommand>();
   CLI::App* const inspect = app.add_subcommand("inspect", "Diagnose a triangle soup, or measure a tet mesh");
-  inspect->footer(kExamples);
+  inspect->group("Commands")->footer(kExamples);
   inspect
       ->add_option("IN", command->input,
                    "Triangles (.obj .stl .ply .off .gltf .glb) or tets (.msh .vtk .vtu .mesh .node)")

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <numbers>
 
+#include "angles.h"
 #include "commands.h"
 #include "files.h"
 #include "interrupt.h"
@@ -77,7 +77,7 @@ void write_meshes(const MeshCommand& command, const std::vector<TetFormat>& form
   const Stopwatch watch;
   for (std::size_t i = 0; i < formats.size(); ++i) {
     throw_if_interrupted();
-    files.expect(command.outputs[i]);
+    files.expect_mesh(command.outputs[i], formats[i]);
     const auto written = write_tets(command.outputs[i], run.pipeline->smooth().mesh, formats[i]);
     run.outputs.insert(run.outputs.end(), written.begin(), written.end());
   }
@@ -102,8 +102,7 @@ void draw_preview(const std::string& path, MeshRun& run, NewFiles& files) {
       fmt::format("votes, {} x {} x {} voxels, k = {:.4g}", size[0], size[1], size[2], volume.k),
       fmt::format("lattice, {}", counted(pipeline.lattice().report.tet_count, "tet")),
       fmt::format("mesh, {}, angles {:.1f} to {:.1f} degrees", counted(run.quality.tet_count, "tet"),
-                  run.quality.min_dihedral * 180 / std::numbers::pi,
-                  run.quality.max_dihedral * 180 / std::numbers::pi)};
+                  to_degrees(run.quality.min_dihedral), to_degrees(run.quality.max_dihedral))};
   files.expect(path);
   write_preview(path, scene);
   run.outputs.push_back(path);
@@ -152,7 +151,7 @@ void run_mesh(MeshCommand& command) {
 void add_mesh_command(CLI::App& app) {
   const auto command = std::make_shared<MeshCommand>();
   CLI::App* const mesh = app.add_subcommand("mesh", "Turn a triangle soup into a tet mesh");
-  mesh->footer(kExamples);
+  mesh->group("Commands")->footer(kExamples);
   mesh->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb")->required()->option_text(" ");
   mesh->add_option("-o,--output", command->outputs,
                    "File for the mesh, by name .msh .vtk .vtu .mesh .node, or the\nboundary only: .obj .stl .ply; may "

@@ -67,7 +67,7 @@ void run_sample(const SampleCommand& command) {
 void add_sample_command(CLI::App& app) {
   const auto command = std::make_shared<SampleCommand>();
   CLI::App* const sample = app.add_subcommand("sample", "Write a sample soup, or list the samples");
-  sample->footer(kExamples);
+  sample->group("Commands")->footer(kExamples);
   sample->add_option("NAME", command->name, "Which one; without it the samples are listed")->option_text(" ");
   add_flag(
       *sample, "-o,--output", "OUT", [command](const std::string& text) { command->output = text; },

@@ -87,8 +87,7 @@ TetFormat Outputs::add_mesh(std::string_view flag, const fs::path& path, const s
   if (name) {
     const std::vector<TetFormatInfo>& known = tet_formats();
     const auto found = std::find_if(known.begin(), known.end(), [&](const auto& info) { return info.name == *name; });
-    if (found == known.end())
-      throw InvalidInput(fmt::format("--format {}: unknown; `tetsoup mesh --help` lists them", *name));
+    if (found == known.end()) throw InvalidInput(fmt::format("--format {}: there is no such format", *name));
     format = found->format;
     const std::string extension = lower_extension(path);
     if (format == TetFormat::Surface && extension != ".obj" && extension != ".stl" && extension != ".ply")
@@ -108,10 +107,15 @@ NewFiles::~NewFiles() {
 
 void NewFiles::expect(const fs::path& path) {
   std::error_code error;
-  std::vector<fs::path> candidates{path};
-  for (const char* extension : {".node", ".ele"}) candidates.push_back(fs::path(path).replace_extension(extension));
-  for (const fs::path& candidate : candidates)
-    if (!fs::exists(candidate, error)) made_.push_back(candidate);
+  if (!fs::exists(path, error)) made_.push_back(path);
+}
+
+void NewFiles::expect_mesh(const fs::path& path, TetFormat format) {
+  if (format != TetFormat::Tetgen) return expect(path);
+  const std::string extension = lower_extension(path);
+  const fs::path stem = extension == ".node" || extension == ".ele" ? fs::path(path).replace_extension() : path;
+  expect(path);
+  for (const char* const ending : {".node", ".ele"}) expect(fs::path(stem) += ending);
 }
 
 void write_stdout(std::string_view text) {

@@ -47,6 +47,7 @@ class NewFiles {
 
   /// To be called before `path` is written; a file that stands there already is not ours to remove.
   void expect(const std::filesystem::path& path);
+  void expect_mesh(const std::filesystem::path& path, TetFormat format);
   void keep() { kept_ = true; }
 
  private:

@@ -10,11 +10,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
+#include <memory>
 #include <new>
 #include <string>
 
 #include "commands.h"
+#include "help.h"
 #include "interrupt.h"
 #include "tetsoup/error.h"
 
@@ -53,24 +54,6 @@ int fail(int code, std::string text) {
   return code;
 }
 
-/// The command that was asked for, for the hint behind a usage error.
-std::string help_hint(const CLI::App& app) {
-  const auto chosen = app.get_subcommands();
-  return fmt::format("; see `tetsoup {}--help`", chosen.empty() ? "" : chosen.front()->get_name() + " ");
-}
-
-std::string describe_usage_error(const CLI::App& app, const CLI::ParseError& error) {
-  const std::vector<std::string> unknown = app.remaining(true);
-  if (!app.get_subcommands().empty() || unknown.empty() || unknown.front().starts_with('-'))
-    return error.what() + help_hint(app);
-  const std::string& word = unknown.front();
-  std::error_code ignored;
-  if (std::filesystem::exists(word, ignored))
-    return fmt::format("{0}: which command? To mesh it: tetsoup mesh {0} -o out.msh", word);
-  return fmt::format("{}: there is no such command; there are mesh, inspect, field and sample; see `tetsoup --help`",
-                     word);
-}
-
 int parse_and_run(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
@@ -94,9 +77,9 @@ int run(int argc, char** argv) {
   CLI::App app("tetsoup: any triangle soup in, a coarse well-shaped tet mesh out.", "tetsoup");
   app.set_version_flag("--version", "tetsoup " TETSOUP_VERSION, "Print the version and exit");
   app.require_subcommand(0, 1);
-  app.get_formatter()->column_width(30);
-  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app.get_formatter()->label("Subcommands", "Commands");
+  const auto layout = std::make_shared<HelpLayout>();
+  layout->column_width(30);
+  app.formatter(layout);
   app.footer(kExamples);
   app.set_help_flag("-h,--help", "Print this help and exit");
   add_mesh_command(app);

@@ -1,8 +1,8 @@
 #include "options.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "angles.h"
 #include "arguments.h"
 #include "memory.h"
 #include "tetsoup/error.h"
@@ -24,10 +24,6 @@ constexpr const char* kVolumeGroup = "Inside or outside";
 constexpr const char* kLatticeGroup = "Tet lattice";
 constexpr const char* kSmoothGroup = "Smoothing";
 constexpr const char* kRunGroup = "Run";
-
-double to_radians(double degrees) {
-  return degrees * std::numbers::pi / 180;
-}
 
 }  // namespace
 

@@ -26,7 +26,10 @@ bool can_draw() {
 ProgressBar::ProgressBar(bool quiet) : active_(!quiet && can_draw()) {}
 
 void ProgressBar::show(std::string_view stage) {
-  draw(stage, 0);
+  if (!active_) return;
+  drawn_ = true;
+  fmt::print(stderr, "\r\033[K{} ...", stage);
+  std::fflush(stderr);
 }
 
 void ProgressBar::clear() {

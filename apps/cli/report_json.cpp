@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "angles.h"
 #include "tetsoup/progress.h"
 
 namespace tetsoup::cli {
@@ -11,10 +11,6 @@ namespace tetsoup::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;  // writes NaN and infinity as null
-
-double degrees(double radians) {
-  return radians * 180 / std::numbers::pi;
-}
 
 Json vector_json(const Vec3d& v) {
   return Json::array({v.x, v.y, v.z});
@@ -53,8 +49,8 @@ Json quality_json(const Quality& quality) {
           {"volume", quality.volume},
           {"min_tet_volume", quality.min_tet_volume},
           {"max_tet_volume", quality.max_tet_volume},
-          {"min_dihedral_deg", degrees(quality.min_dihedral)},
-          {"max_dihedral_deg", degrees(quality.max_dihedral)},
+          {"min_dihedral_deg", to_degrees(quality.min_dihedral)},
+          {"max_dihedral_deg", to_degrees(quality.max_dihedral)},
           {"dihedral_histogram", quality.dihedral_histogram},
           {"max_edge_ratio", quality.max_edge_ratio},
           {"mean_ratio_min", quality.mean_ratio_min},
@@ -129,7 +125,7 @@ Json smooth_json(const SmoothReport& report) {
           {"shortened_moves", report.shortened_moves},
           {"volume_before", report.volume_before},
           {"volume_after", report.volume_after},
-          {"min_dihedral_deg", degrees(report.min_dihedral)},
+          {"min_dihedral_deg", to_degrees(report.min_dihedral)},
           {"boundary_volume_ratio", ratio}};
 }
 
@@ -137,7 +133,7 @@ Json options_json(const MeshOptions& options) {
   const DistanceOptions& distance = options.distance;
   const PseudoVolumeOptions& volume = options.pseudo_volume;
   const LatticeOptions& lattice = options.lattice;
-  const Vec3d turn{degrees(lattice.rotate.x), degrees(lattice.rotate.y), degrees(lattice.rotate.z)};
+  const Vec3d turn{to_degrees(lattice.rotate.x), to_degrees(lattice.rotate.y), to_degrees(lattice.rotate.z)};
   return {{"voxels", optional_json(distance.voxels)},
           {"voxel_size", optional_json(distance.voxel_size)},
           {"k", optional_json(volume.k)},
@@ -152,7 +148,7 @@ Json options_json(const MeshOptions& options) {
           {"rotate_deg", vector_json(turn)},
           {"passes", options.smooth.passes},
           {"strength", options.smooth.strength},
-          {"min_angle_deg", degrees(options.smooth.min_dihedral)},
+          {"min_angle_deg", to_degrees(options.smooth.min_dihedral)},
           {"memory_limit_bytes", optional_json(options.memory_limit)},
           {"threads", thread_count()}};
 }
@@ -187,8 +183,8 @@ std::string mesh_report_json(const MeshRun& run) {
   return text_of({{"tet_count", run.quality.tet_count},
                   {"vertex_count", run.quality.vertex_count},
                   {"inverted_tets", run.quality.inverted_tets},
-                  {"min_dihedral_deg", degrees(run.quality.min_dihedral)},
-                  {"max_dihedral_deg", degrees(run.quality.max_dihedral)},
+                  {"min_dihedral_deg", to_degrees(run.quality.min_dihedral)},
+                  {"max_dihedral_deg", to_degrees(run.quality.max_dihedral)},
                   {"boundary_manifold", run.quality.boundary_manifold},
                   {"components", run.quality.components},
                   {"volume", run.quality.volume},

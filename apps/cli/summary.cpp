@@ -4,17 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "angles.h"
 #include "report_json.h"
 
 namespace tetsoup::cli {
 
 namespace {
-
-double degrees(double radians) {
-  return radians * 180 / std::numbers::pi;
-}
 
 /// "a", "a and b", "a, b and c"
 std::string listed(const std::vector<std::string>& parts) {
@@ -73,8 +69,8 @@ std::string describe_result(const MeshRun& run) {
   return fmt::format(
       "Result: {}, {}, volume {:.4g}; dihedral angles {:.1f} to {:.1f} degrees; {}; boundary {}; overlap with the "
       "inside voxels (IoU) {:.3f}.\n",
-      counted(q.tet_count, "tet"), counted(q.vertex_count, "vertex"), q.volume, degrees(q.min_dihedral),
-      degrees(q.max_dihedral), counted(q.components, "piece"), q.boundary_manifold ? "manifold" : "not manifold",
+      counted(q.tet_count, "tet"), counted(q.vertex_count, "vertex"), q.volume, to_degrees(q.min_dihedral),
+      to_degrees(q.max_dihedral), counted(q.components, "piece"), q.boundary_manifold ? "manifold" : "not manifold",
       run.iou);
 }
 
@@ -83,15 +79,25 @@ constexpr double kLowOverlap = 0.75;
 /// Beyond this share of tets judged without a voxel centre, the lattice is finer than the grid that it was cut from.
 constexpr double kManySampled = 0.1;
 
+/// What to ask for to get twice as many, within what the flag takes.
+int doubled(int count, int most) {
+  return std::min(2 * count, most);
+}
+
+int longest_of(const std::array<int, 3>& counts) {
+  return *std::max_element(counts.begin(), counts.end());
+}
+
 void note_lattice(const MeshRun& run, std::vector<std::string>& notes) {
   const LatticeReport& lattice = run.pipeline->lattice().report;
-  const int longest = *std::max_element(lattice.cells.begin(), lattice.cells.end());
+  constexpr int kMostCells = 1024, kMostVoxels = 4096;
+  const int more_cells = doubled(longest_of(lattice.cells), kMostCells);
   if (lattice.kept_by_soup) {
     notes.push_back(fmt::format(
         "No tet was filled enough (--rho-min {:.4g}), as happens with sheets and needles, so the tets that the soup "
         "passes through were kept. For a thinner body use more cells (--cells {}); for a filled one a wider band "
         "(--band-voxels {:.3g}).",
-        run.options.lattice.rho_min, 2 * longest, 2 * run.pipeline->pseudo_volume().report.band_voxels));
+        run.options.lattice.rho_min, more_cells, 2 * run.pipeline->pseudo_volume().report.band_voxels));
     return;
   }
   if (static_cast<double>(lattice.sampled_tets) > kManySampled * static_cast<double>(lattice.tet_count))
@@ -99,11 +105,10 @@ void note_lattice(const MeshRun& run, std::vector<std::string>& notes) {
         "The lattice is finer than the voxel grid: {} held no voxel centre and were judged by samples. More voxels "
         "(--voxels {}) show more of the shape.",
         counted(lattice.sampled_tets, "tet"),
-        2 * *std::max_element(run.pipeline->distance().distance.frame.size.begin(),
-                              run.pipeline->distance().distance.frame.size.end())));
+        doubled(longest_of(unpadded_size(run.pipeline->distance().distance.frame)), kMostVoxels)));
   if (run.iou < kLowOverlap)
     notes.push_back(fmt::format(
-        "The mesh follows the shape only roughly. More cells follow it more closely: --cells {}.", 2 * longest));
+        "The mesh follows the shape only roughly. More cells follow it more closely: --cells {}.", more_cells));
 }
 
 void note_topology(const Quality& quality, std::vector<std::string>& notes) {

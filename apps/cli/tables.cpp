@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "angles.h"
 #include "report_json.h"
 #include "summary.h"
 
@@ -12,10 +12,6 @@ namespace tetsoup::cli {
 namespace {
 
 constexpr std::size_t kHistogramWidth = 40;  // columns of the longest bar
-
-double degrees(double radians) {
-  return radians * 180 / std::numbers::pi;
-}
 
 std::string row(std::string_view label, const std::string& value, std::string_view remark = {}) {
   std::string line = fmt::format("  {:<24}{:>14}", label, value);
@@ -80,8 +76,8 @@ std::string tabulate_tets(const std::string& name, const Quality& q) {
           row("invalid tets", grouped(q.invalid_tets), "index out of range or used twice") +
           row("unused vertices", grouped(q.unused_vertices)) + row("volume", number(q.volume)) +
           row("smallest tet volume", number(q.min_tet_volume)) + row("largest tet volume", number(q.max_tet_volume)) +
-          row("smallest dihedral", fmt::format("{:.2f}", degrees(q.min_dihedral)), "degrees") +
-          row("largest dihedral", fmt::format("{:.2f}", degrees(q.max_dihedral)), "degrees") +
+          row("smallest dihedral", fmt::format("{:.2f}", to_degrees(q.min_dihedral)), "degrees") +
+          row("largest dihedral", fmt::format("{:.2f}", to_degrees(q.max_dihedral)), "degrees") +
           row("largest edge ratio", number(q.max_edge_ratio), "longest over shortest edge of a tet") +
           row("smallest mean ratio", number(q.mean_ratio_min), "1 = regular tet, 0 = flat") +
           row("average mean ratio", number(q.mean_ratio_mean)) +
