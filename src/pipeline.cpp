@@ -83,20 +83,15 @@ void Pipeline::run_until(Stage last, const MeshOptions& options, const Progress&
   }
   if (last == Stage::Distance) return;
   if (!volume_) {
-    const auto widen = [&](bool wide) {
-      const Stopwatch stopwatch;
-      widen_distance(*distance_, soup_, band_needed_voxels(*distance_, options.pseudo_volume, wide), progress);
-      seconds_[index_of(Stage::Distance)] += stopwatch.seconds();
-    };
-    const auto classify = [&] {
-      timed(Stage::PseudoVolume, [&] { volume_ = classify_volume(*distance_, options.pseudo_volume, progress); });
-    };
-    widen(false);
-    classify();
-    if (volume_->report.wants_wider_band) {
+    // The automatic choice may ask for a wider band, step by step; a cancelled step leaves no half-chosen volume.
+    std::optional<double> band = band_needed_voxels(*distance_, options.pseudo_volume);
+    while (band) {
       volume_.reset();
-      widen(true);
-      classify();
+      const Stopwatch stopwatch;
+      widen_distance(*distance_, soup_, *band, progress);
+      seconds_[index_of(Stage::Distance)] += stopwatch.seconds();
+      timed(Stage::PseudoVolume, [&] { volume_ = classify_volume(*distance_, options.pseudo_volume, progress); });
+      band = volume_->report.wants_band_voxels;
     }
   }
   if (last == Stage::PseudoVolume) return;

@@ -10,8 +10,8 @@
 
 namespace tetsoup::test {
 
-/// Flips, along every ray of one axis that crosses a triangle, the voxels beyond the crossing. Rays are moved off the voxel
-/// centres by some 1e-4 voxels so that none meets an edge.
+/// Flips, along every ray of one axis that crosses a triangle, the voxels beyond the crossing. Rays are moved off the
+/// voxel centres by some 1e-4 voxels so that none meets an edge.
 class AxisParity {
  public:
   AxisParity(const GridFrame& frame, const std::array<int, 3>& axis) : frame_(frame), odd_(frame.voxel_count()) {
@@ -85,7 +85,8 @@ inline BitGrid classify_by_parity(const TriangleSoup& soup, const GridFrame& fra
   for (int z = 0; z < frame.size[2]; ++z)
     for (int y = 0; y < frame.size[1]; ++y)
       for (int x = 0; x < frame.size[0]; ++x, ++voxel)
-        if (votes[voxel] > 13) inside.words[inside.row(y, z) + static_cast<std::size_t>(x >> 6)] |= std::uint64_t{1} << (x & 63);
+        if (votes[voxel] > 13)
+          inside.words[inside.row(y, z) + static_cast<std::size_t>(x >> 6)] |= std::uint64_t{1} << (x & 63);
   return inside;
 }
 

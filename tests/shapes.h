@@ -82,7 +82,8 @@ inline TriangleSoup joined(const TriangleSoup& a, const TriangleSoup& b) {
 inline TriangleSoup scrambled(const TriangleSoup& soup, std::uint64_t seed) {
   TriangleSoup out = soup;
   Random random(seed);
-  for (std::size_t i = out.triangles.size(); i > 1; --i) std::swap(out.triangles[i - 1], out.triangles[random.below(i)]);
+  for (std::size_t i = out.triangles.size(); i > 1; --i)
+    std::swap(out.triangles[i - 1], out.triangles[random.below(i)]);
   for (Triangle& t : out.triangles) {
     if (random.below(2) == 0) std::swap(t[0], t[1]);
     std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(random.below(3)), t.end());
@@ -133,6 +134,5 @@ inline double overlap(const BitGrid& inside, const std::function<bool(Vec3d)>& s
   }
   return either == 0 ? 1 : static_cast<double>(both) / static_cast<double>(either);
 }
-
 
 }  // namespace tetsoup::test

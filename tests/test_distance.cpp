@@ -25,7 +25,8 @@ double triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const V
   const double edges = std::min({segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
   const Vec3d n = cross(b - a, c - a);
   if (squared_length(n) == 0) return edges;
-  const bool above = dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 && dot(cross(a - c, p - c), n) >= 0;
+  const bool above =
+      dot(cross(b - a, p - a), n) >= 0 && dot(cross(c - b, p - b), n) >= 0 && dot(cross(a - c, p - c), n) >= 0;
   return above ? std::min(edges, std::abs(dot(p - a, n)) / length(n)) : edges;
 }
 

@@ -27,7 +27,9 @@ PseudoVolumeOptions with_band(double band_voxels) {
   return options;
 }
 
-bool in_unit_ball(const Vec3d& p) { return squared_length(p) < 1; }
+bool in_unit_ball(const Vec3d& p) {
+  return squared_length(p) < 1;
+}
 
 TEST(PseudoVolume, bits_of_the_fast_rays_are_those_of_the_obvious_ones) {
   // Widths around a word's 64 bits, so that rays cross words, enter through every side and leave through every other.
@@ -42,8 +44,9 @@ TEST(PseudoVolume, bits_of_the_fast_rays_are_those_of_the_obvious_ones) {
           options.rays = rays;
           options.placement = placement;
           const PseudoVolume fast = classify_volume(field, options);
-          const auto obvious = reference::count_votes(
-              field.distance, static_cast<float>(band * field.distance.frame.voxel_size), rays, placement == Placement::Entry);
+          const auto obvious =
+              reference::count_votes(field.distance, static_cast<float>(band * field.distance.frame.voxel_size), rays,
+                                     placement == Placement::Entry);
           ASSERT_EQ(fast.votes.values, obvious.values) << voxels << ' ' << band << ' ' << rays;
         }
       }
@@ -141,8 +144,9 @@ TEST(PseudoVolume, mirroring_the_soup_mirrors_the_votes) {
 TEST(PseudoVolume, the_choice_does_not_depend_on_how_wide_the_known_band_is) {
   for (const char* name : {"torus", "sphere"}) {
     const TriangleSoup soup = remove_triangles(make_sample(name), 0.3, 1);
-    const PseudoVolume narrow = classify_volume(make_field(soup, 48, 5)), wide = classify_volume(make_field(soup, 48, 20));
-    EXPECT_FALSE(narrow.report.wants_wider_band);
+    const PseudoVolume narrow = classify_volume(make_field(soup, 48, 5)),
+                       wide = classify_volume(make_field(soup, 48, 20));
+    EXPECT_FALSE(narrow.report.wants_band_voxels);
     EXPECT_EQ(narrow.report.band_voxels, wide.report.band_voxels);
     EXPECT_EQ(narrow.inside.words, wide.inside.words);
   }

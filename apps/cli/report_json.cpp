@@ -93,7 +93,7 @@ Json pseudo_volume_json(const PseudoVolumeReport& report) {
           {"band_voxels", report.band_voxels},
           {"automatic", report.automatic},
           {"floored", report.floored},
-          {"wants_wider_band", report.wants_wider_band},
+          
           {"inside_voxels", report.inside_voxels},
           {"volume", report.volume},
           {"consensus", report.consensus},

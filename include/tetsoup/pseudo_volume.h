@@ -42,7 +42,8 @@ struct PseudoVolumeReport {
   bool automatic = false;  ///< The band was chosen here.
   bool floored = false;    ///< The band asked for was below the floor.
   std::vector<BandScore> candidates;  ///< What the automatic choice tried.
-  bool wants_wider_band = false;      ///< The best candidate is the widest that the distance field's band could serve.
+  /// The automatic choice is not over: wider candidates would need the distance known this far, in voxels.
+  std::optional<double> wants_band_voxels;
   std::size_t inside_voxels = 0;
   double volume = 0;     ///< Of the inside voxels.
   double consensus = 0;  ///< Mean of |2 votes / rays - 1| over all voxels; 1 = all rays agree everywhere.
@@ -68,8 +69,8 @@ struct PseudoVolume {
 PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptions& options = {},
                              const Progress& progress = {});
 
-/// Half width, in voxels, of the distance band that classify_volume() needs for these options; for the automatic choice
-/// what its first candidates need, or all of them if `wide`.
-double band_needed_voxels(const DistanceField& field, const PseudoVolumeOptions& options, bool wide = false);
+/// Half width, in voxels, of the distance band that classify_volume() needs for these options; the automatic choice may
+/// ask for more in its report.
+double band_needed_voxels(const DistanceField& field, const PseudoVolumeOptions& options);
 
 }  // namespace tetsoup

@@ -14,6 +14,9 @@ namespace {
 using kernel::TrianglePlan;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr std::int64_t kValuesPerTask = 1 << 16;
+/// Voxels; what every triangle lowers directly. Beyond, asking the tree once a voxel is cheaper than every triangle's
+/// cube.
+constexpr double kRasterBand = 4;
 
 /// The soup in voxel units: voxel centres are the whole numbers. Planned from double coordinates, so position and scale
 /// of the soup cost no precision here.

@@ -14,10 +14,15 @@ namespace {
 constexpr double kFloorVoxels = 0.9;
 /// Voxels beyond the band whose distances are compared: a diagonal step, and a little for rounding.
 constexpr double kReachVoxels = 1.74;
-/// Bands that the automatic choice tries, in voxels. The first six are what sound surfaces need; only if the widest of
-/// those is the best are the others tried, since they cost a wider distance band.
+/// Bands that the automatic choice tries, in voxels, from narrow to wide.
 constexpr std::array<double, 10> kCandidates{0.9, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
-constexpr std::size_t kFirstCandidates = 6;
+/// Known distance is asked for in these steps, since it costs more than trying a candidate: sound surfaces need the
+/// first.
+constexpr std::array<double, 3> kTiers{2, 3, 8};
+/// The choice ends once this many candidates in a row did worse than the best, if the best is sound: below that score,
+/// votes are speckle or nothing, and the best may lie anywhere.
+constexpr std::size_t kWorseInARow = 2;
+constexpr double kSoundScore = 0.45;
 
 struct Trial {
   std::vector<VoteWord> votes;
@@ -50,14 +55,9 @@ bool is_served(const DistanceField& field, double band_voxels) {
   return (band_voxels + kReachVoxels) * field.distance.frame.voxel_size <= field.band * (1 + 1e-12);
 }
 
-/// Candidates that this field can serve; a band of d_max or more would make all of the box one event.
-std::vector<double> candidates_for(const DistanceField& field) {
-  std::vector<double> bands;
-  for (const double b : kCandidates) {
-    const bool useful = b == kFloorVoxels || b * field.distance.frame.voxel_size < field.d_max;
-    if (useful && is_served(field, b)) bands.push_back(b);
-  }
-  return bands;
+/// A band of d_max or more would make all of the box one event.
+bool is_useful(const DistanceField& field, double band_voxels) {
+  return band_voxels == kCandidates.front() || band_voxels * field.distance.frame.voxel_size < field.d_max;
 }
 
 Trial try_band(const DistanceField& field, double band_voxels, const PseudoVolumeOptions& options,
@@ -70,29 +70,31 @@ Trial try_band(const DistanceField& field, double band_voxels, const PseudoVolum
   return trial;
 }
 
-/// Tries the candidates from narrow to wide and keeps the first of the best.
-double choose_band(const DistanceField& field, const PseudoVolumeOptions& options, const SoupMarks& marks,
-                   StageWatch& watch, PseudoVolumeReport& report, Trial& best) {
-  const std::vector<double> bands = candidates_for(field);
-  double best_band = 0, best_score = -1;
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    const auto part = [&](std::size_t j) { return static_cast<double>(j) / static_cast<double>(bands.size()); };
-    Trial trial = try_band(field, bands[i], options, marks.unpadded, watch, part(i), part(i + 1));
+/// Tries the candidates from narrow to wide and keeps the first of the best. The rule never looks at how far the field
+/// is known: where that is not far enough to decide, the report asks for more.
+void choose_band(const DistanceField& field, const PseudoVolumeOptions& options, const SoupMarks& marks,
+                 StageWatch& watch, PseudoVolumeReport& report, Trial& best) {
+  double best_score = -1;
+  std::size_t worse = 0;
+  for (const double band : kCandidates) {
+    if (!is_useful(field, band) || (worse >= kWorseInARow && best_score >= kSoundScore)) break;
+    if (!is_served(field, band)) {
+      report.wants_band_voxels = *std::lower_bound(kTiers.begin(), kTiers.end(), band) + kReachVoxels;
+      break;
+    }
+    const double tried = static_cast<double>(report.candidates.size());
+    const auto part = [&](double n) { return n / static_cast<double>(kCandidates.size()); };
+    Trial trial = try_band(field, band, options, marks.unpadded, watch, part(tried), part(tried + 1));
     const double score = score_votes(trial.inside, marks, trial.statistics);
-    report.candidates.push_back({bands[i], score, trial.statistics.consensus});
+    report.candidates.push_back({band, score, trial.statistics.consensus});
+    ++worse;
     if (score > best_score) {
       best_score = score;
-      best_band = bands[i];
+      worse = 0;
+      report.band_voxels = band;
       best = std::move(trial);
     }
-    // The rule is the same for any field, so a wider known band never changes the choice.
-    if (i + 1 == kFirstCandidates && best_band < bands[i] && best_score > 0) break;
   }
-  const double h = field.distance.frame.voxel_size;
-  const auto next = std::upper_bound(kCandidates.begin(), kCandidates.end(), bands.back());
-  const bool more = next != kCandidates.end() && *next * h < field.d_max;
-  report.wants_wider_band = more && (bands.size() > kFirstCandidates || best_band == bands.back() || best_score <= 0);
-  return best_band;
 }
 
 void expand_votes(const std::vector<VoteWord>& votes, std::size_t words_per_row, Grid<std::uint8_t>& bytes,
@@ -109,9 +111,9 @@ void expand_votes(const std::vector<VoteWord>& votes, std::size_t words_per_row,
 
 }  // namespace
 
-double band_needed_voxels(const DistanceField& field, const PseudoVolumeOptions& options, bool wide) {
+double band_needed_voxels(const DistanceField& field, const PseudoVolumeOptions& options) {
   check_options(options);
-  if (is_automatic(options)) return (wide ? kCandidates.back() : kCandidates[kFirstCandidates - 1]) + kReachVoxels;
+  if (is_automatic(options)) return kTiers.front() + kReachVoxels;
   return std::max(asked_band_voxels(field, options), kFloorVoxels) + kReachVoxels;
 }
 
@@ -127,7 +129,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   Trial trial;
   if (is_automatic(options)) {
     report.automatic = true;
-    report.band_voxels = choose_band(field, options, marks, watch, report, trial);
+    choose_band(field, options, marks, watch, report, trial);
   } else {
     const double asked = asked_band_voxels(field, options);
     report.floored = asked < kFloorVoxels;
