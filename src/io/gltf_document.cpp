@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -146,9 +147,9 @@ void check_extensions(const Source& source, const json& root) {
 /// Resolves all buffers; each external file is read once.
 class BufferLoader {
  public:
-  BufferLoader(const Source& source, const std::optional<std::filesystem::path>& folder,
-               std::optional<std::span<const std::byte>> binary, Document& document)
-      : source_(source), folder_(folder), binary_(binary), document_(document) {}
+  BufferLoader(const std::optional<std::filesystem::path>& folder, std::optional<std::span<const std::byte>> binary,
+               Document& document)
+      : folder_(folder), binary_(binary), document_(document) {}
 
   void load_all(const json& root) {
     const auto list = root.find("buffers");
@@ -184,7 +185,6 @@ class BufferLoader {
     return files_[path] = bytes;
   }
 
-  const Source& source_;
   const std::optional<std::filesystem::path>& folder_;
   std::optional<std::span<const std::byte>> binary_;
   Document& document_;
@@ -258,7 +258,7 @@ Document read_document(const Source& source, const std::optional<std::filesystem
   document.file_bytes = source.bytes.size();
   const auto used = strings_of(root, "extensionsUsed");
   document.uses_draco = std::find(used.begin(), used.end(), "KHR_draco_mesh_compression") != used.end();
-  BufferLoader(source, folder, container.binary, document).load_all(root);
+  BufferLoader(folder, container.binary, document).load_all(root);
   const json reduced = reduced_to_geometry(root);
   check_object_count(source, reduced, container.text.size());
   load_model(source, reduced, document.model);

@@ -57,7 +57,7 @@ std::vector<std::byte> read_data_uri(const std::string& where, std::string_view 
 std::filesystem::path resolve_file_uri(const std::string& where, const std::string& uri,
                                        const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  const std::string shown = quoted(std::string_view(uri).substr(0, 128));
+  const std::string shown = in_quotes(std::string_view(uri).substr(0, 128));
   const std::string decoded = percent_decoded(uri);
   const fs::path relative(decoded);
   if (decoded.empty() || decoded.find('\0') != std::string::npos || decoded.find("://") != std::string::npos ||

@@ -53,7 +53,7 @@ Element read_element(TextScanner& text) {
   element.name = next_word(text);
   text.skip_blanks();
   const std::int64_t count = text.integer();
-  if (count < 0) text.fail("the number of " + quoted(element.name) + " is negative");
+  if (count < 0) text.fail("the number of " + in_quotes(element.name) + " is negative");
   element.count = static_cast<std::uint64_t>(count);
   return element;
 }

@@ -63,7 +63,7 @@ class BinaryBody {
 
   void expect_room(const Element& element) {
     if (element.count <= bytes_left() / element.smallest_record()) return;
-    fail("the header promises " + std::to_string(element.count) + " times " + quoted(element.name) +
+    fail("the header promises " + std::to_string(element.count) + " times " + in_quotes(element.name) +
          ", more than the file has room for");
   }
 
@@ -97,7 +97,7 @@ class TextBody {
   void expect_room(const Element& element) {
     constexpr std::size_t kShortest = 2;  // bytes a number takes: one digit, one blank; the last needs no blank
     if (element.count <= (text_.bytes_left() + 1) / kShortest / element.properties.size()) return;
-    fail("the header promises " + std::to_string(element.count) + " times " + quoted(element.name) +
+    fail("the header promises " + std::to_string(element.count) + " times " + in_quotes(element.name) +
          ", more than the file has room for");
   }
   [[noreturn]] void fail(const std::string& what) const { text_.fail(what); }
@@ -209,7 +209,7 @@ void check_elements(const Source& source, const Header& header) {
         fail_at_line(source.name, element.line, "the vertices have no properties x, y and z");
       }
     } else if ((element.name == "face" || element.name == "tristrips") && element.count > 0 && !has(is_corner_list)) {
-      fail_at_line(source.name, element.line, quoted(element.name) + " has no list property vertex_indices");
+      fail_at_line(source.name, element.line, in_quotes(element.name) + " has no list property vertex_indices");
     }
   }
   if (!has_vertices) fail_at_line(source.name, header.body_line, "the header ends without 'element vertex'");

@@ -98,7 +98,7 @@ class TextReader {
     return true;
   }
   void expect(std::string_view keyword) {
-    if (!take(keyword)) text_.fail_expected(quoted(keyword));
+    if (!take(keyword)) text_.fail_expected(in_quotes(keyword));
   }
   Vec3 point() {
     const auto coordinate = [&] {

@@ -24,7 +24,7 @@ struct Source {
 [[noreturn]] void fail_at_byte(std::string_view name, std::size_t byte, const std::string& what);
 
 /// 'text', as errors show names.
-inline std::string quoted(std::string_view text) {
+inline std::string in_quotes(std::string_view text) {
   std::string result = "'";
   result.append(text).push_back('\'');
   return result;

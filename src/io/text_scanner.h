@@ -33,7 +33,7 @@ class TextScanner {
   void skip_blanks() {
     for (; at_ != end_; ++at_) {
       if (is_blank(*at_)) continue;
-      if (*at_ != '\\' || at_ + 1 == end_ || !is_line_end(at_[1])) return;
+      if (!at_continuation()) return;
       ++at_;
       take_line_end();
       --at_;
@@ -97,7 +97,7 @@ class TextScanner {
     return value;
   }
 
-  bool at_word_end() const { return at_ == end_ || is_blank(*at_) || is_line_end(*at_); }
+  bool at_word_end() const { return at_ == end_ || is_blank(*at_) || is_line_end(*at_) || at_continuation(); }
 
   [[noreturn]] void fail(const std::string& what) const { fail_at_line(name_, line_, what); }
   /// "expected `what`, found ..." with the word at the cursor.
@@ -106,6 +106,8 @@ class TextScanner {
  private:
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+  bool at_continuation() const { return *at_ == '\\' && at_ + 1 != end_ && is_line_end(at_[1]); }
 
   void take_line_end() {
     if (*at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n') ++at_;
