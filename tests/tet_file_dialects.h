@@ -74,8 +74,11 @@ inline std::string msh22_binary(const TetMesh& mesh) {
 /// Binary, doubles, with a field before and a metadata section after the points, a triangle before the tets.
 inline std::string vtk_binary(const TetMesh& mesh) {
   std::string b =
-      "# vtk DataFile Version 4.2\nvtk output\nBINARY\nDATASET UNSTRUCTURED_GRID\nFIELD FieldData 1\nTIME 1 1 double\n";
+      "# vtk DataFile Version 4.2\nvtk output\nBINARY\nDATASET UNSTRUCTURED_GRID\nFIELD FieldData 2\nTIME 1 1 double\n";
   append_big_endian(b, 0.25);
+  b += "\nNOTES 1 2 string\n\xC3"
+       "a b\x80\x02"
+       "cd";
   b += "\nPOINTS " + std::to_string(mesh.vertices.size()) + " double\n";
   for (const Vec3& v : mesh.vertices)
     for (const float c : {v.x, v.y, v.z}) append_big_endian(b, static_cast<double>(c));
