@@ -10,18 +10,30 @@
 
 namespace tetsoup::test {
 
-/// Flips, along every ray of one axis that crosses a triangle, the voxels beyond the crossing. Rays are moved off the
-/// voxel centres by some 1e-4 voxels so that none meets an edge.
-class AxisParity {
+/// Crossings of the rays of one axis with the triangles of a soup, each noted at the first voxel beyond it. Rays are
+/// moved off the voxel centres by some 1e-4 voxels so that none meets an edge.
+class AxisCrossings {
  public:
-  AxisParity(const GridFrame& frame, const std::array<int, 3>& axis) : frame_(frame), odd_(frame.voxel_count()) {
+  AxisCrossings(const TriangleSoup& soup, const GridFrame& frame, const std::array<int, 3>& axis)
+      : crossings{frame, std::vector<std::uint8_t>(frame.voxel_count())} {
     main_ = axis[2] != 0 ? 2 : axis[1] != 0 ? 1 : 0;  // the coordinate that every step moves by one
     a_ = (main_ + 1) % 3;
     b_ = (main_ + 2) % 3;
     slope_a_ = axis[a_];
     slope_b_ = axis[b_];
+    for (const Triangle& t : soup.triangles) {
+      std::array<std::array<double, 3>, 3> corners{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d p = (to_double(soup.vertices[t[i]]) - frame.origin) * (1 / frame.voxel_size);
+        corners[i] = {p.x, p.y, p.z};
+      }
+      add(corners);
+    }
   }
 
+  Grid<std::uint8_t> crossings;
+
+ private:
   void add(const std::array<std::array<double, 3>, 3>& corners) {
     std::array<double, 3> u{}, v{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -39,55 +51,81 @@ class AxisParity {
         };
         const double w0 = weight(1, 2), w1 = weight(2, 0), w2 = weight(0, 1);
         if (w0 < 0 || w1 < 0 || w2 < 0) continue;
-        flip_beyond(iu, iv, w0 * corners[0][main_] + w1 * corners[1][main_] + w2 * corners[2][main_]);
+        note(iu, iv, w0 * corners[0][main_] + w1 * corners[1][main_] + w2 * corners[2][main_]);
       }
     }
   }
 
-  bool is_odd(std::size_t voxel) const { return odd_[voxel] != 0; }
-
- private:
-  void flip_beyond(int iu, int iv, double crossing) {
-    for (int m = std::max(0, static_cast<int>(std::ceil(crossing))); m < frame_.size[main_]; ++m) {
-      std::array<int, 3> at{};
-      at[main_] = m;
-      at[a_] = iu + slope_a_ * m;
-      at[b_] = iv + slope_b_ * m;
-      if (!frame_.contains(at[0], at[1], at[2])) continue;
-      odd_[Grid<char>{frame_, {}}.index(at[0], at[1], at[2])] ^= 1;
-    }
+  void note(int iu, int iv, double crossing) {
+    std::array<int, 3> at{};
+    at[main_] = static_cast<int>(std::ceil(crossing));
+    at[a_] = iu + slope_a_ * at[main_];
+    at[b_] = iv + slope_b_ * at[main_];
+    if (crossings.frame.contains(at[0], at[1], at[2])) ++crossings.values[crossings.index(at[0], at[1], at[2])];
   }
 
-  const GridFrame& frame_;
   std::size_t main_, a_, b_;
   int slope_a_, slope_b_;
-  std::vector<char> odd_;
 };
 
-/// Voxels that more than half of the 26 rays call inside; both ways along an axis agree for a closed surface.
-inline BitGrid classify_by_parity(const TriangleSoup& soup, const GridFrame& frame) {
-  std::vector<int> votes(frame.voxel_count());
+/// Intersection over union of what volume events and parity counting call inside, voting along the same rays.
+struct ParityAgreement {
+  double all_rays = 0;
+  double clear_rays =
+      0;  ///< Without the rays that graze: those with a run of the band that holds not exactly one crossing.
+};
+
+inline ParityAgreement compare_with_parity(const TriangleSoup& soup, const Grid<float>& distance, float band) {
+  const GridFrame& frame = distance.frame;
+  std::vector<std::array<int, 2>> all(frame.voxel_count()), clear(frame.voxel_count());
+  std::vector<int> clear_rays(frame.voxel_count());
+  const auto [nx, ny, nz] = frame.size;
   for (const auto& axis : reference::ray_axes()) {
-    AxisParity parity(frame, axis);
-    for (const Triangle& t : soup.triangles) {
-      std::array<std::array<double, 3>, 3> corners{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d p = (to_double(soup.vertices[t[i]]) - frame.origin) * (1 / frame.voxel_size);
-        corners[i] = {p.x, p.y, p.z};
+    const Grid<std::uint8_t> crossings = AxisCrossings(soup, frame, axis).crossings;
+    const std::array<int, 3> back{-axis[0], -axis[1], -axis[2]};
+    Grid<std::uint8_t> events{frame, std::vector<std::uint8_t>(frame.voxel_count())};
+    const auto walk_line = [&](std::array<int, 3> at) {
+      std::vector<std::size_t> line;
+      bool graze = false, in_band = false;
+      int crossed = 0;  // in the current run of the band, or in the current gap
+      reference::walk_ray(distance, band, false, at, axis, events);
+      for (; frame.contains(at[0], at[1], at[2]); at = {at[0] + axis[0], at[1] + axis[1], at[2] + axis[2]}) {
+        const std::size_t voxel = distance.index(at[0], at[1], at[2]);
+        line.push_back(voxel);
+        const bool now = distance.values[voxel] < band;
+        if (!in_band && now) crossed = 0;
+        crossed += crossings.values[voxel];
+        graze |= in_band && !now && crossed != 1;
+        in_band = now;
       }
-      parity.add(corners);
-    }
-    for (std::size_t i = 0; i < votes.size(); ++i) votes[i] += 2 * parity.is_odd(i);
+      reference::walk_ray(distance, band, false, {at[0] - axis[0], at[1] - axis[1], at[2] - axis[2]}, back, events);
+      int parity = 0;
+      for (const std::size_t voxel : line) {
+        parity ^= crossings.values[voxel] & 1;
+        all[voxel][0] += events.values[voxel];
+        all[voxel][1] += 2 * parity;
+        if (graze) continue;
+        clear[voxel][0] += events.values[voxel];
+        clear[voxel][1] += 2 * parity;
+        clear_rays[voxel] += 2;
+      }
+    };
+    for (int z = 0; z < nz; ++z)
+      for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x)
+          if (!frame.contains(x - axis[0], y - axis[1], z - axis[2])) walk_line({x, y, z});
   }
-  BitGrid inside{frame, (static_cast<std::size_t>(frame.size[0]) + 63) / 64, {}};
-  inside.words.resize(inside.words_per_row * static_cast<std::size_t>(frame.size[1] * frame.size[2]));
-  std::size_t voxel = 0;
-  for (int z = 0; z < frame.size[2]; ++z)
-    for (int y = 0; y < frame.size[1]; ++y)
-      for (int x = 0; x < frame.size[0]; ++x, ++voxel)
-        if (votes[voxel] > 13)
-          inside.words[inside.row(y, z) + static_cast<std::size_t>(x >> 6)] |= std::uint64_t{1} << (x & 63);
-  return inside;
+  std::array<std::size_t, 4> count{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool a = all[i][0] > 13, b = all[i][1] > 13;
+    const bool c = 2 * clear[i][0] > clear_rays[i], d = 2 * clear[i][1] > clear_rays[i];
+    count[0] += a && b;
+    count[1] += a || b;
+    count[2] += c && d;
+    count[3] += c || d;
+  }
+  return {static_cast<double>(count[0]) / static_cast<double>(count[1]),
+          static_cast<double>(count[2]) / static_cast<double>(count[3])};
 }
 
 }  // namespace tetsoup::test
