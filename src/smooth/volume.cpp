@@ -9,7 +9,8 @@ namespace {
 
 // Reach of the diffusion, as its time step in squared edges, and how often swept volume is given back. Measured after
 // five passes of strength 1 (ball, torus, turned bar and plate, ball with stick; mean over them): a reach of 10 keeps
-// the shape a little closer but a tenth more of the stair steps; 40 smooths no better and rounds plates and bars.
+// the shape a little closer but a tenth more of the stair steps; 40, thrice, smooths no better and rounds plates and
+// bars.
 constexpr double kReach = 20;
 constexpr int kRestorations = 2;
 constexpr double kMaxPush = 0.5;        // Of a vertex's own size: beyond, a push extrapolates from a bent surface.
