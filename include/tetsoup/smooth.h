@@ -38,7 +38,8 @@ struct SmoothResult {
 /// Each pass solves (I - lambda L) x' = x for the boundary [Desbrun99 §3], pushes the locally lost volume back along
 /// the normals [Spillmann06 §4], and relaxes the interior to the average of its neighbours. Every move is shortened
 /// until no tet around it is inverted or has a dihedral angle below the floor (or below what it had, where that was
-/// lower).
+/// lower). Swept volume counts from the start, so many passes converge. In the end every part of the mesh (tets joined
+/// through vertices) has its volume again; one that cannot within the limits goes back towards its start until it can.
 ///
 /// @throws InvalidInput  if an option is out of range or a tet of the input is not positive; Cancelled.
 /// Cost: O(passes x tets), O(tets) memory.

@@ -12,6 +12,17 @@ namespace {
 constexpr double kResidual = 1e-9;   // Of the right side's length: below what a float position can tell apart.
 constexpr int kMaxIterations = 300;  // A time step of 1 takes about 15; only absurdly long steps end here, unconverged.
 
+/// Solves (weight K + diagonal) x = right_side.
+Eigen::MatrixXd solve(const Eigen::SparseMatrix<double>& stiffness, double weight, const Eigen::VectorXd& diagonal,
+                      const Eigen::MatrixXd& right_side) {
+  Eigen::SparseMatrix<double> system = weight * stiffness;
+  system.diagonal() += diagonal;
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(system);
+  solver.setTolerance(kResidual);
+  solver.setMaxIterations(kMaxIterations);
+  return solver.solve(right_side);
+}
+
 }  // namespace
 
 BoundaryFlow::BoundaryFlow(const Connectivity& links) {
@@ -31,16 +42,6 @@ BoundaryFlow::BoundaryFlow(const Connectivity& links) {
   stiffness_.setFromTriplets(entries.begin(), entries.end());
 }
 
-Eigen::MatrixXd BoundaryFlow::solve(const Eigen::MatrixXd& right_side, double time) const {
-  // Divided by 1 + t, so that no time step overflows.
-  Eigen::SparseMatrix<double> system = (time / (1 + time)) * stiffness_;
-  system.diagonal() += valence_ / (1 + time);
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(system);
-  solver.setTolerance(kResidual);
-  solver.setMaxIterations(kMaxIterations);
-  return solver.solve(right_side);
-}
-
 std::vector<Vec3d> BoundaryFlow::fair(const std::vector<Vec3d>& positions, double time) const {
   if (positions.empty()) return {};
   // Solved for x' - x, whose right side -t K x does not change with the origin: no digits are lost far away from it.
@@ -49,7 +50,8 @@ std::vector<Vec3d> BoundaryFlow::fair(const std::vector<Vec3d>& positions, doubl
     const Vec3d p = positions[i] - positions[0];
     from.row(static_cast<Eigen::Index>(i)) << p.x, p.y, p.z;
   }
-  const Eigen::MatrixXd moves = solve((-time / (1 + time)) * (stiffness_ * from), time);
+  const double weight = time / (1 + time);  // The equation divided by 1 + t, so that no time step overflows.
+  const Eigen::MatrixXd moves = solve(stiffness_, weight, valence_ / (1 + time), -weight * (stiffness_ * from));
   std::vector<Vec3d> result(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -58,12 +60,14 @@ std::vector<Vec3d> BoundaryFlow::fair(const std::vector<Vec3d>& positions, doubl
   return result;
 }
 
-std::vector<double> BoundaryFlow::spread(const std::vector<double>& amounts, double time) const {
-  if (amounts.empty()) return {};
-  const auto count = static_cast<Eigen::Index>(amounts.size());
-  const Eigen::VectorXd right_side = Eigen::Map<const Eigen::VectorXd>(amounts.data(), count) / (1 + time);
-  const Eigen::VectorXd spread_out = valence_.cwiseProduct(solve(right_side, time).col(0));
-  return {spread_out.data(), spread_out.data() + count};
+std::vector<double> BoundaryFlow::spread(const std::vector<double>& volumes, const std::vector<double>& areas,
+                                         double time) const {
+  const auto count = static_cast<Eigen::Index>(volumes.size());
+  const Eigen::Map<const Eigen::VectorXd> volume(volumes.data(), count), area(areas.data(), count);
+  const double total = area.sum();
+  if (!(total > 0)) return std::vector<double>(volumes.size(), 0.0);
+  const Eigen::VectorXd layer = solve(stiffness_, time * total / valence_.sum(), area, volume).col(0);
+  return {layer.data(), layer.data() + count};
 }
 
 }  // namespace tetsoup

@@ -21,13 +21,13 @@ class BoundaryFlow {
   /// How far one step moves the boundary vertices; in and out in the order of Connectivity::boundary.
   std::vector<Vec3d> fair(const std::vector<Vec3d>& positions, double time) const;
 
-  /// One step of diffusion of an amount per boundary vertex; their sum stays.
-  std::vector<double> spread(const std::vector<double>& amounts, double time) const;
+  /// Spreads a volume per boundary vertex over its neighbourhood by one step of diffusion, as a layer on the surface:
+  /// (A + t s K) u = v, where A is the surface area each vertex stands for and s = sum A / sum N makes t a time in
+  /// edges.
+  /// @return  The layer's thickness u at each vertex; the volumes A u add up to those given.
+  std::vector<double> spread(const std::vector<double>& volumes, const std::vector<double>& areas, double time) const;
 
  private:
-  /// Solves (N + t K) x = (1 + t) right_side.
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_side, double time) const;
-
   Eigen::VectorXd valence_;                ///< N
   Eigen::SparseMatrix<double> stiffness_;  ///< K
 };
