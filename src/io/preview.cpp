@@ -1,4 +1,5 @@
 // The page of a preview: title, up to four panels, a caption under each.
+#include <cmath>
 #include <functional>
 #include <memory>
 
@@ -12,8 +13,16 @@ namespace tetsoup {
 
 namespace {
 
-constexpr int kMargin = 44, kGap = 30, kTitleHeight = 76, kPanelHeight = 600, kCaptionHeight = 58;
-constexpr double kCornerRadius = 12;
+/// All sizes of the page, in pixels; they are stated for a page 1600 pixels wide.
+struct Layout {
+  int width, columns;
+  double unit = width / 1600.0;
+  int margin = scaled_size(44), gap = scaled_size(30), title_height = scaled_size(76);
+  int panel_height = scaled_size(600), caption_height = scaled_size(58);
+  int panel_width = (width - 2 * margin - (columns - 1) * gap) / columns;
+
+  int scaled_size(double pixels) const { return static_cast<int>(std::lround(pixels * unit)); }
+};
 
 struct Panel {
   std::function<void(Image&, const Rect&)> draw;
@@ -37,9 +46,10 @@ std::vector<Vec3d> drawable_points(const PreviewScene& scene) {
   return points;
 }
 
-std::vector<Panel> panels_of(const PreviewScene& scene, int width) {
+std::vector<Panel> panels_of(const PreviewScene& scene, const Layout& layout) {
   const int up_axis = scene.soup != nullptr ? guess_up_axis(*scene.soup) : 2;
-  const auto view = std::make_shared<PreviewView>(drawable_points(scene), up_axis, width, kPanelHeight);
+  const auto view =
+      std::make_shared<PreviewView>(drawable_points(scene), up_axis, layout.panel_width, layout.panel_height);
   std::vector<Panel> panels;
   if (scene.soup != nullptr)
     panels.push_back({[=](Image& i, const Rect& r) { draw_soup_panel(i, r, *view, *scene.soup); }, scene.captions[0]});
@@ -54,34 +64,39 @@ std::vector<Panel> panels_of(const PreviewScene& scene, int width) {
   return panels;
 }
 
-void draw_panel(Image& page, const Rect& rect, const Panel& panel) {
+void draw_panel(Image& page, const Rect& rect, const Panel& panel, double unit) {
   for (int y = 0; y < rect.height; ++y) {
     const float t = static_cast<float>(y) / static_cast<float>(rect.height);
     fill_rect(page, {rect.x, rect.y + y, rect.width, 1}, mix(palette::kPanelTop, palette::kPanelBottom, t));
   }
   panel.draw(page, rect);
-  round_corners(page, rect, kCornerRadius, palette::kRule, palette::kPage);
-  draw_text(page, rect.x + 4, rect.y + rect.height + 34, panel.caption, {15, 0.125, palette::kInk}, rect.width - 8);
+  round_corners(page, rect, 12 * unit, palette::kRule, palette::kPage);
+  draw_text(page, rect.x + 4 * unit, rect.y + rect.height + 34 * unit, panel.caption, {15 * unit, 0.125, palette::kInk},
+            rect.width - 8 * unit);
 }
 
 }  // namespace
 
 void write_preview(const std::filesystem::path& path, const PreviewScene& scene, int width) {
-  require(width >= 640 && width <= 8192, "width", width, "in 640..8192");
-  const int title = scene.title.empty() ? 0 : kTitleHeight;
-  const bool single =
-      (scene.soup != nullptr) + (scene.volume != nullptr) + (scene.lattice != nullptr) + (scene.mesh != nullptr) < 2;
-  const int columns = single ? 1 : 2;
-  const int panel_width = (width - 2 * kMargin - (columns - 1) * kGap) / columns;
-  const std::vector<Panel> panels = panels_of(scene, panel_width);
-  const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
+  require(width >= 320 && width <= 8192, "width", width, "in 320..8192");
+  const int count =
+      (scene.soup != nullptr) + (scene.volume != nullptr) + (scene.lattice != nullptr) + (scene.mesh != nullptr);
+  const Layout layout{width, count < 2 ? 1 : 2};
+  const int top = layout.margin + (scene.title.empty() ? 0 : layout.title_height);
+  const int rows = (count + layout.columns - 1) / layout.columns;
+  const int row_height = layout.panel_height + layout.caption_height;
 
-  Image page(width, kMargin + title + rows * (kPanelHeight + kCaptionHeight) + kMargin / 4, palette::kPage);
-  draw_text(page, kMargin + 2, kMargin + 30, scene.title, {25, 0.135, palette::kInk}, width - 2 * kMargin);
-  for (int i = 0; i < static_cast<int>(panels.size()); ++i) {
-    const Rect rect{kMargin + i % columns * (panel_width + kGap),
-                    kMargin + title + i / columns * (kPanelHeight + kCaptionHeight), panel_width, kPanelHeight};
-    draw_panel(page, rect, panels[static_cast<std::size_t>(i)]);
+  Image page(width, top + rows * row_height + layout.margin / 4, palette::kPage);
+  draw_text(page, layout.margin + 2 * layout.unit, layout.margin + 30 * layout.unit, scene.title,
+            {25 * layout.unit, 0.135, palette::kInk}, width - 2 * layout.margin);
+  int index = 0;
+  for (const Panel& panel : panels_of(scene, layout)) {
+    const int column = index % layout.columns, row = index / layout.columns;
+    draw_panel(page,
+               {layout.margin + column * (layout.panel_width + layout.gap), top + row * row_height, layout.panel_width,
+                layout.panel_height},
+               panel, layout.unit);
+    ++index;
   }
   write_file_atomic(path, encode_png(page));
 }

@@ -13,6 +13,11 @@ inline constexpr Rgb kSoup = rgb(0xe3c9a4), kMesh = rgb(0x6fa3d8), kCut = rgb(0x
 inline constexpr Rgb kInside = rgb(0x2c6cb0), kBoundary = rgb(0xe2582b);
 }  // namespace palette
 
+/// Size of a pixel of the design, whose panels are 600 pixels high.
+inline double design_unit(const Rect& panel) {
+  return panel.height / 600.0;
+}
+
 void draw_soup_panel(Image& image, const Rect& panel, const PreviewView& view, const TriangleSoup& soup);
 void draw_lattice_panel(Image& image, const Rect& panel, const PreviewView& view, const TetMesh& mesh);
 void draw_mesh_panel(Image& image, const Rect& panel, const PreviewView& view, const TetMesh& mesh);

@@ -150,11 +150,13 @@ TetMesh without_front_quarter(const TetMesh& mesh, const PreviewView& view) {
   return rest.tets.empty() ? mesh : rest;
 }
 
-void draw_swatch(Image& image, double x, double y, const Rgb& colour, std::string_view text) {
-  constexpr int kSide = 14;
-  const Rect box{static_cast<int>(x), static_cast<int>(y) - kSide + 1, kSide, kSide};
-  fill_rect(image, box, scaled(colour, 0.95F));
-  draw_text(image, x + kSide + 8, y, text, {12, 0.125, palette::kFaint}, 200);
+/// What a colour means, `x` design pixels from the panel's left.
+void draw_swatch(Image& image, const Rect& panel, double x, const Rgb& colour, std::string_view text) {
+  const double unit = design_unit(panel);
+  const double left = panel.x + x * unit, bottom = panel.y + panel.height - 18 * unit;
+  const int side = static_cast<int>(14 * unit);
+  fill_rect(image, {static_cast<int>(left), static_cast<int>(bottom) - side + 1, side, side}, scaled(colour, 0.95F));
+  draw_text(image, left + 22 * unit, bottom, text, {12 * unit, 0.125, palette::kFaint}, 200 * unit);
 }
 
 }  // namespace
@@ -164,7 +166,7 @@ void draw_soup_panel(Image& image, const Rect& panel, const PreviewView& view, c
   std::vector<Triangle> faces;
   for (const Triangle& t : soup.triangles)
     if (is_drawable(soup, t)) faces.push_back(t);
-  const EdgeStyle edge = edges_of(palette::kSoup, typical_edge(view, soup.vertices, faces), 0.9);
+  const EdgeStyle edge = edges_of(palette::kSoup, typical_edge(view, soup.vertices, faces), 0.9 * design_unit(panel));
   for (const Triangle& t : faces) stage.add(corners_of(soup.vertices, t), palette::kSoup, edge);
   stage.show(image);
 }
@@ -182,19 +184,18 @@ void draw_lattice_panel(Image& image, const Rect& panel, const PreviewView& view
   for (const Triangle& t : faces) {
     const bool is_outer = std::binary_search(outer.begin(), outer.end(), sorted(t));
     const Rgb colour = is_outer ? palette::kMesh : palette::kCut;
-    stage.add(corners_of(rest.vertices, t), colour, edges_of(colour, typical, 1.3));
+    stage.add(corners_of(rest.vertices, t), colour, edges_of(colour, typical, 1.3 * design_unit(panel)));
   }
   stage.show(image);
-  const double y = panel.y + panel.height - 18;
-  draw_swatch(image, panel.x + 20, y, palette::kMesh, "surface");
-  draw_swatch(image, panel.x + 125, y, palette::kCut, "cut open");
+  draw_swatch(image, panel, 20, palette::kMesh, "surface");
+  draw_swatch(image, panel, 125, palette::kCut, "cut open");
 }
 
 void draw_mesh_panel(Image& image, const Rect& panel, const PreviewView& view, const TetMesh& mesh) {
   const TetMesh whole = drawable_part(mesh);
   const std::vector<Triangle> faces = boundary_triangles(whole);
   Stage stage(view, panel);
-  const EdgeStyle edge = edges_of(palette::kMesh, typical_edge(view, whole.vertices, faces), 1.3);
+  const EdgeStyle edge = edges_of(palette::kMesh, typical_edge(view, whole.vertices, faces), 1.3 * design_unit(panel));
   for (const Triangle& t : faces) stage.add(corners_of(whole.vertices, t), palette::kMesh, edge);
   stage.show(image);
 }

@@ -71,10 +71,12 @@ class VotesPicture {
     const auto& size = volume.votes.frame.size;
     columns_ = size[slice.across];
     rows_ = size[slice.upward];
-    constexpr double kMargin = 0.07;
-    const double room_x = panel.width * (1 - 2 * kMargin) - 70, room_y = panel.height * (1 - 2 * kMargin);
+    constexpr double kMargin = 0.07;  // Of the panel, on each side.
+    constexpr double kLegend = 60;    // Design pixels on the right.
+    const double room_x = panel.width * (1 - 2 * kMargin) - kLegend * design_unit(panel),
+                 room_y = panel.height * (1 - 2 * kMargin);
     pixel_ = std::min(room_x / columns_, room_y / rows_);
-    left_ = panel.x + (panel.width - 60 - pixel_ * columns_) / 2;
+    left_ = panel.x + (panel.width - kLegend * design_unit(panel) - pixel_ * columns_) / 2;
     top_ = panel.y + (panel.height - pixel_ * rows_) / 2;
   }
 
@@ -143,26 +145,23 @@ void VotesPicture::draw_boundary() {
 
 /// Votes from 0 to all rays, with the majority marked.
 void draw_legend(Image& image, const Rect& panel, int rays) {
-  constexpr int kWidth = 14;
-  const int height = panel.height * 2 / 5;
-  const int x0 = panel.x + panel.width - 70, y0 = panel.y + (panel.height - height) / 2;
-  for (int y = 0; y < height; ++y)
-    fill_rect(image, {x0, y0 + y, kWidth, 1},
-              mix(palette::kPanelTop, palette::kInside, vote_opacity(1 - static_cast<double>(y) / (height - 1))));
-  const double left = x0 - 0.5, right = x0 + kWidth + 0.5, top = y0 - 0.5, bottom = y0 + height + 0.5;
-  draw_strokes(image,
-               {{Point{left, top}, Point{right, top}},
-                {Point{right, top}, Point{right, bottom}},
-                {Point{right, bottom}, Point{left, bottom}},
-                {Point{left, bottom}, Point{left, top}}},
-               1, palette::kRule);
-  const TextStyle style{12, 0.125, palette::kFaint};
+  const double unit = design_unit(panel);
+  const int width = static_cast<int>(14 * unit), height = panel.height * 2 / 5;
+  const int x0 = panel.x + panel.width - static_cast<int>(70 * unit), y0 = panel.y + (panel.height - height) / 2;
+  for (int y = 0; y < height; ++y) {
+    const float opacity = vote_opacity(1 - static_cast<double>(y) / (height - 1));
+    fill_rect(image, {x0, y0 + y, width, 1}, mix(palette::kPanelTop, palette::kInside, opacity));
+  }
+  const Point a{x0 - 0.5, y0 - 0.5}, b{x0 + width + 0.5, y0 - 0.5}, c{b.x, y0 + height + 0.5}, d{a.x, c.y};
+  draw_strokes(image, {{a, b}, {b, c}, {c, d}, {d, a}}, 1, palette::kRule);
   const double middle = y0 + height / 2.0;
-  draw_strokes(image, {{Point{left - 3, middle}, Point{right + 3, middle}}}, 2.2, palette::kBoundary);
-  draw_text(image, right + 9, y0 + 12, std::to_string(rays), style, 60);
-  draw_text(image, right + 9, middle + 6, std::to_string(rays / 2), style, 60);
-  draw_text(image, right + 9, y0 + height, "0", style, 60);
-  draw_text(image, x0 - 8, y0 - 18, "votes", style, 80);
+  draw_strokes(image, {{Point{a.x - 3 * unit, middle}, Point{b.x + 3 * unit, middle}}}, 2.2 * unit, palette::kBoundary);
+  const TextStyle style{12 * unit, 0.125, palette::kFaint};
+  const double numbers = b.x + 9 * unit;
+  draw_text(image, numbers, y0 + 12 * unit, std::to_string(rays), style, 60 * unit);
+  draw_text(image, numbers, middle + 6 * unit, std::to_string(rays / 2), style, 60 * unit);
+  draw_text(image, numbers, y0 + height, "0", style, 60 * unit);
+  draw_text(image, x0 - 8 * unit, y0 - 18 * unit, "votes", style, 80 * unit);
 }
 
 }  // namespace
@@ -176,7 +175,9 @@ void draw_votes_panel(Image& image, const Rect& panel, int up_axis, const Pseudo
   draw_legend(image, panel, volume.rays);
   const std::string name = std::string("layer ") + std::to_string(slice.level + 1) + " of " +
                            std::to_string(volume.votes.frame.size[slice.axis]) + " across " + "xyz"[slice.axis];
-  draw_text(image, panel.x + 20, panel.y + panel.height - 18, name, {12, 0.125, palette::kFaint}, panel.width - 40);
+  const double unit = design_unit(panel);
+  draw_text(image, panel.x + 20 * unit, panel.y + panel.height - 18 * unit, name, {12 * unit, 0.125, palette::kFaint},
+            panel.width - 40 * unit);
 }
 
 }  // namespace tetsoup
