@@ -16,7 +16,7 @@
 namespace tetsoup {
 namespace {
 
-constexpr int kWidth = 640;
+constexpr int kWidth = 400;
 
 /// A scene that owns what it shows: a sphere, its votes, and five tets.
 struct SmallScene {
@@ -39,9 +39,9 @@ struct SmallScene {
     for (int z = 0; z < kSize; ++z) {
       for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
-          const bool inside = std::hypot(x - 9.5, y - 9.5, z - 9.5) < 7;
-          volume.votes.values[volume.votes.index(x, y, z)] = inside ? 26 : 3;
-          if (inside) volume.inside.words[volume.inside.row(y, z)] |= std::uint64_t{1} << x;
+          const double votes = 26 - 13.0 / 7 * std::hypot(x - 9.5, y - 9.5, z - 9.5);
+          volume.votes.values[volume.votes.index(x, y, z)] = static_cast<std::uint8_t>(std::max(0.0, votes));
+          if (votes >= 14) volume.inside.words[volume.inside.row(y, z)] |= std::uint64_t{1} << x;
         }
       }
     }

@@ -39,7 +39,8 @@ class PreviewView {
   double scale_ = 1, shift_x_ = 0, shift_y_ = 0;
 };
 
-/// 2 or 1: most objects are alike left and right, many front and back, few above and below.
+/// 2 if the soup clearly stands on its z side rather than on its y side, else 1, as most models are drawn: what stands
+/// is unlike itself upside down and has a broad footing.
 int guess_up_axis(const TriangleSoup& soup);
 
 }  // namespace tetsoup

@@ -18,6 +18,7 @@ struct Slice {
   int level = 0;
   std::size_t across = 0, upward = 1;  ///< Grid axes on the picture.
   bool mirrored = false;               ///< `across` runs to the left.
+  bool upside_down = false;            ///< `upward` runs down.
 };
 
 /// Inside voxels of every layer along an axis.
@@ -59,8 +60,9 @@ Slice choose_slice(const BitGrid& inside, int up_axis) {
   const std::size_t depth = 3 - up;  // z up: y; y up: z.
   best.upward = best.axis == up ? depth : up;
   best.across = 3 - best.axis - best.upward;
-  // The front is -y with z up and +z with y up; from above and from the side, the viewer's right stays the same.
-  best.mirrored = best.axis == 0 ? up == 1 : false;
+  // As the other panels are seen: the front is -y with z up and +z with y up, the side is +x.
+  best.mirrored = best.axis == 0 && up == 1;
+  best.upside_down = best.axis == 1 && up == 1;
   return best;
 }
 
@@ -88,7 +90,7 @@ class VotesPicture {
     Cell c{};
     c[slice_.axis] = slice_.level;
     c[slice_.across] = slice_.mirrored ? columns_ - 1 - column : column;
-    c[slice_.upward] = rows_ - 1 - row;
+    c[slice_.upward] = slice_.upside_down ? row : rows_ - 1 - row;
     return c;
   }
   bool inside(int column, int row) const {
