@@ -121,8 +121,9 @@ inline ParityAgreement compare_with_parity(const TriangleSoup& soup, const Grid<
     const bool c = 2 * clear[i][0] > clear_rays[i], d = 2 * clear[i][1] > clear_rays[i];
     count[0] += a && b;
     count[1] += a || b;
-    count[2] += c && d;
-    count[3] += c || d;
+    const bool judged = clear_rays[i] > 0 && distance.values[i] >= band;
+    count[2] += judged && c && d;
+    count[3] += judged && (c || d);
   }
   return {static_cast<double>(count[0]) / static_cast<double>(count[1]),
           static_cast<double>(count[2]) / static_cast<double>(count[3])};
