@@ -18,6 +18,12 @@ enum class Placement {
   Entry,    ///< At the run's first voxel, as the paper can also be read; dilates the result by the band.
 };
 
+/// What becomes of space that the rays call outside although the soup encloses it.
+enum class Cavities {
+  Fill,  ///< It is inside: overlapping closed parts become their union, nested shells become solid.
+  Keep,  ///< It stays outside, as parity has it: the overlap of two closed parts is hollow.
+};
+
 /// At most one of `k`, `band_voxels` and `band`; none: automatic.
 struct PseudoVolumeOptions {
   std::optional<double> k;            ///< Event threshold in (0, 1]: event where 1 - d / d_max > k [Spillmann06 §3].
@@ -25,6 +31,7 @@ struct PseudoVolumeOptions {
   std::optional<double> band;         ///< Event where the distance is below this length.
   int rays = 26;                      ///< 26: both ways along 13 axes; 13: one way.
   Placement placement = Placement::Closest;
+  Cavities cavities = Cavities::Fill;
   bool operator==(const PseudoVolumeOptions&) const = default;
 };
 
@@ -44,6 +51,7 @@ struct PseudoVolumeReport {
   std::vector<BandScore> candidates;  ///< What the automatic choice tried.
   /// The automatic choice is not over: wider candidates would need the distance known this far, in voxels.
   std::optional<double> wants_band_voxels;
+  std::size_t cavity_voxels = 0;  ///< Voxels that were added because the soup encloses them.
   std::size_t inside_voxels = 0;
   double volume = 0;     ///< Of the inside voxels.
   double consensus = 0;  ///< Mean of |2 votes / rays - 1| over all voxels; 1 = all rays agree everywhere.
@@ -59,7 +67,8 @@ struct PseudoVolume {
 /// Decides which voxels lie in the pseudo volume.
 ///
 /// Every voxel is crossed by 26 rays, one per neighbour direction; along a ray each run of voxels with P > k flips the
-/// parity once [Spillmann06 §3]. A voxel with odd parity on more than half of its rays is inside.
+/// parity once [Spillmann06 §3]. A voxel with odd parity on more than half of its rays is inside; so are, unless kept,
+/// cavities that no path from outside reaches, since parity counts the overlap of two parts as outside.
 ///
 /// @param field  Its band must reach sqrt(3) voxels beyond the event band, so that every comparison sees true
 /// distances.

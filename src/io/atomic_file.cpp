@@ -102,6 +102,7 @@ void AtomicFile::open_directly() {
 }
 
 void AtomicFile::write(std::string_view text) {
+  if (text.empty()) return;  // Its address may be null, which fwrite does not take.
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail_with_errno();
 }
 

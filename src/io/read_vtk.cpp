@@ -91,18 +91,31 @@ class VtkReader {
       }
       const std::size_t components = in_.count("number of components", 1);
       const std::size_t tuples = in_.count("number of tuples", 1);
-      const auto type = read_type();
-      const std::size_t width = binary_ && type ? size_of(*type) : 2;
-      if (components != 0 && tuples > (in_.left() + 1) / width / components)
-        in_.fail("a field claims too many numbers");
-      if (binary_) {
-        if (!type) in_.fail("the type of this field is not known");
-        in_.line();
-        in_.bytes(components * tuples * width, "a field");
-      } else {
-        for (std::size_t i = 0; i < components * tuples; ++i) in_.word();
-      }
+      const std::string type_name(in_.word());
+      const auto type = type_named(type_name);
+      const std::size_t width = binary_ && type ? size_of(*type) : 1;
+      if (components != 0 && tuples > in_.left() / width / components) in_.fail("a field claims too many numbers");
+      const std::size_t values = components * tuples;
+      if (binary_) in_.line();
+      if (!binary_)
+        for (std::size_t i = 0; i < values; ++i) in_.word();
+      else if (type)
+        in_.bytes(values * width, "a field");
+      else if (type_name == "string")
+        for (std::size_t i = 0; i < values; ++i) skip_binary_string();
+      else
+        in_.fail("the type of this field is not known");
     }
+  }
+
+  // The first two bits tell how many bytes hold the length: 8, 4, 2 or 1.
+  void skip_binary_string() {
+    const auto first = in_.raw<std::uint8_t>("a string's length");
+    std::uint64_t length = first & 0x3FU;
+    for (unsigned more = (8U >> (first >> 6U)) - 1; more > 0; --more)
+      length = length << 8U | in_.raw<std::uint8_t>("a string's length");
+    if (length > in_.left()) in_.fail_byte("the file ends within a string");
+    in_.bytes(length, "a string");
   }
 
   // Ends at an empty line.

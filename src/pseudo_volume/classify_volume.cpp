@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/require.h"
+#include "pseudo_volume/cavities.h"
 #include "pseudo_volume/rays.h"
 #include "pseudo_volume/score.h"
 #include "tetsoup/pseudo_volume.h"
@@ -140,9 +141,14 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
     trial = try_band(field, report.band_voxels, options, marks.unpadded, watch, 0, 1);
   }
 
+  report.inside_voxels = trial.statistics.inside;
+  if (options.cavities == Cavities::Fill && !report.wants_band_voxels) {
+    const auto sealed = static_cast<float>(kFloorVoxels * frame.voxel_size);
+    report.cavity_voxels = fill_cavities(trial.inside, mark_below(field.distance, sealed), watch);
+    report.inside_voxels += report.cavity_voxels;
+  }
   report.band = report.band_voxels * frame.voxel_size;
   report.k = field.d_max > 0 ? std::max(0.0, 1 - report.band / field.d_max) : 0;
-  report.inside_voxels = trial.statistics.inside;
   report.volume = static_cast<double>(report.inside_voxels) * std::pow(frame.voxel_size, 3);
   report.consensus = trial.statistics.consensus;
   result.inside = std::move(trial.inside);
