@@ -55,7 +55,7 @@ TEST_F(Tool, refuses_an_option_out_of_range_by_its_name) {
                                                       {"--band-voxels", "-1"},
                                                       {"--band", "1,5"},
                                                       {"--rays", "14"},
-                                                      {"--placement", "Entry"},
+                                                      {"--placement", "--cavities", "Entry"},
                                                       {"--cells", "1025"},
                                                       {"--cell-size", "1e999"},
                                                       {"--rho-min", "0"},
