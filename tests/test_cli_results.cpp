@@ -55,6 +55,8 @@ TEST_F(Tool, options_reach_the_library) {
                                      "13",
                                      "--placement",
                                      "entry",
+                                     "--cavities",
+                                     "keep",
                                      "--rho-min",
                                      "0.25",
                                      "--translate",
