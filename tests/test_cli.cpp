@@ -26,9 +26,9 @@ TEST_F(Tool, help_has_examples_on_every_level) {
 TEST_F(Tool, help_of_mesh_names_every_flag_that_scripts_rely_on) {
   const std::string help = run({"mesh", "--help"}).out;
   for (const char* flag :
-       {"--voxels",    "--voxel-size", "--k ",      "--band-voxels", "--band ",  "--rays",   "--placement",
-        "--cells",     "--cell-size",  "--rho-min", "--translate",   "--rotate", "--passes", "--strength",
-        "--min-angle", "--threads",    "--json",    "--preview",     "--quiet",  "--format", "--memory"})
+       {"--voxels",  "--voxel-size", "--k ",      "--band-voxels", "--band ",  "--rays",   "--placement", "--cavities",
+        "--cells",   "--cell-size",  "--rho-min", "--translate",   "--rotate", "--passes", "--strength",  "--min-angle",
+        "--threads", "--json",       "--preview", "--quiet",       "--format", "--memory"})
     EXPECT_NE(help.find(flag), std::string::npos) << flag;
 }
 
@@ -56,6 +56,7 @@ TEST_F(Tool, refuses_an_option_out_of_range_by_its_name) {
                                                       {"--band", "1,5"},
                                                       {"--rays", "14"},
                                                       {"--placement", "Entry"},
+                                                      {"--cavities", "both"},
                                                       {"--cells", "1025"},
                                                       {"--cell-size", "1e999"},
                                                       {"--rho-min", "0"},

@@ -55,6 +55,8 @@ TEST_F(Tool, options_reach_the_library) {
                                      "13",
                                      "--placement",
                                      "entry",
+                                     "--cavities",
+                                     "keep",
                                      "--rho-min",
                                      "0.25",
                                      "--translate",
@@ -76,6 +78,7 @@ TEST_F(Tool, options_reach_the_library) {
   EXPECT_NEAR(report.at("band_voxels").get<double>(), 2, 1e-6);
   EXPECT_EQ(options.at("rays"), 13);
   EXPECT_EQ(options.at("placement"), "entry");
+  EXPECT_EQ(options.at("cavities"), "keep");
   EXPECT_EQ(options.at("cells"), 5);
   EXPECT_EQ(options.at("rho_min"), 0.25);
   EXPECT_EQ(options.at("translate"), Json({-0.5, 0.0, 0.1}));

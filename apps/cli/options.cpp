@@ -80,7 +80,15 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
       },
       "Where a ray crosses the band: at its closest approach to the\nsoup, or on entering, which thickens the result "
       "(closest)");
-  for (CLI::Option* const option : {k, voxels, band, rays, placement}) option->group(kVolumeGroup);
+  CLI::Option* const cavities = add_flag(
+      app, "--cavities", "fill|keep",
+      [&options](const std::string& text) {
+        if (text != "fill" && text != "keep") throw InvalidInput("--cavities " + text + ": must be fill or keep");
+        options.cavities = text == "keep" ? Cavities::Keep : Cavities::Fill;
+      },
+      "Space that the soup encloses although rays call it outside, as\nwhere closed parts overlap: inside, or left "
+      "hollow (fill)");
+  for (CLI::Option* const option : {k, voxels, band, rays, placement, cavities}) option->group(kVolumeGroup);
 }
 
 void add_lattice_flags(CLI::App& app, LatticeOptions& options) {

@@ -93,8 +93,9 @@ Json pseudo_volume_json(const PseudoVolumeReport& report) {
           {"band_voxels", report.band_voxels},
           {"automatic", report.automatic},
           {"floored", report.floored},
-          
+
           {"inside_voxels", report.inside_voxels},
+          {"cavity_voxels", report.cavity_voxels},
           {"volume", report.volume},
           {"consensus", report.consensus},
           {"candidates", candidates}};
@@ -141,6 +142,7 @@ Json options_json(const MeshOptions& options) {
           {"band", optional_json(volume.band)},
           {"rays", volume.rays},
           {"placement", volume.placement == Placement::Closest ? "closest" : "entry"},
+          {"cavities", volume.cavities == Cavities::Fill ? "fill" : "keep"},
           {"cells", optional_json(lattice.cells)},
           {"cell_size", optional_json(lattice.cell_size)},
           {"rho_min", lattice.rho_min},

@@ -191,8 +191,11 @@ std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& vo
                                  size[0], size[1], size[2], frame.voxel_size, volume.k,
                                  volume.automatic ? "was chosen" : "was used", volume.band_voxels);
   text += volume.floored ? "; the band asked for was below 0.9 voxels, where rays miss surfaces. " : ". ";
-  return text + counted(volume.inside_voxels, "voxel") +
-         (volume.inside_voxels == 1 ? " is inside.\n" : " are inside.\n");
+  text += counted(volume.inside_voxels, "voxel") + (volume.inside_voxels == 1 ? " is inside" : " are inside");
+  if (volume.cavity_voxels > 0)
+    text += fmt::format(", {} of them in cavities that the soup encloses (--cavities keep leaves those hollow)",
+                        grouped(volume.cavity_voxels));
+  return text + ".\n";
 }
 
 std::string describe_run(const MeshRun& run) {
