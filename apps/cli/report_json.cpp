@@ -98,6 +98,7 @@ Json pseudo_volume_json(const PseudoVolumeReport& report) {
           {"cavity_voxels", report.cavity_voxels},
           {"volume", report.volume},
           {"consensus", report.consensus},
+          {"soup_covered", report.soup_covered},
           {"candidates", candidates}};
 }
 

@@ -52,6 +52,7 @@ struct PseudoVolumeReport {
   /// The automatic choice is not over: wider candidates would need the distance known this far, in voxels.
   std::optional<double> wants_band_voxels;
   std::size_t cavity_voxels = 0;  ///< Voxels that were added because the soup encloses them.
+  double soup_covered = 1;  ///< Share of the voxels the soup passes through that have an inside voxel beside them.
   std::size_t inside_voxels = 0;
   double volume = 0;     ///< Of the inside voxels.
   double consensus = 0;  ///< Mean of |2 votes / rays - 1| over all voxels; 1 = all rays agree everywhere.

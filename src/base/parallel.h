@@ -44,9 +44,7 @@ class StageWatch {
 
   /// From any thread inside a parallel loop: notes the answer of the callback instead of throwing.
   void tick(double done) {
-    if (!progress_ || std::this_thread::get_id() != owner_ || stopped()) return;
-    if (!progress_(stage_, std::min(1.0, begin_ + (end_ - begin_) * done)))
-      stopped_.store(true, std::memory_order_relaxed);
+    if (progress_ && std::this_thread::get_id() == owner_ && !stopped()) tell(begin_ + (end_ - begin_) * done);
   }
   void throw_if_stopped() const {
     if (stopped()) throw Cancelled();
@@ -54,15 +52,19 @@ class StageWatch {
 
  private:
   void report(double fraction) {
-    if (progress_ && !progress_(stage_, std::clamp(fraction, 0.0, 1.0)))
-      stopped_.store(true, std::memory_order_relaxed);
+    if (progress_) tell(fraction);
     throw_if_stopped();
+  }
+  /// Chunks end in any order and parts restart, but what the caller sees never goes back.
+  void tell(double fraction) {
+    told_ = std::clamp(fraction, told_, 1.0);
+    if (!progress_(stage_, told_)) stopped_.store(true, std::memory_order_relaxed);
   }
 
   const Progress& progress_;
   std::string_view stage_;
   std::thread::id owner_;
-  double begin_ = 0, end_ = 1;
+  double begin_ = 0, end_ = 1, told_ = 0;
   std::atomic<bool> stopped_{false};
 };
 

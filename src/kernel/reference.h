@@ -1,5 +1,5 @@
-// The obvious twins of everything that is fast elsewhere: the oracle that tests compare with, bit for bit. Never called by
-// the library itself.
+// The obvious twins of everything that is fast elsewhere: the oracle that tests compare with, bit for bit. Never called
+// by the library itself.
 #pragma once
 
 #include <array>

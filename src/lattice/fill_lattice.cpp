@@ -11,9 +11,10 @@ namespace {
 
 constexpr int kMaxCells = 1024;
 constexpr double kMaxTets = 2147483648.0;
-constexpr double kDefaultTets = 2000;  ///< What the default cell edge aims at.
-constexpr double kGoodEnough = 0.04;   ///< Relative distance to the aim at which the search for the edge ends.
-constexpr int kMaxFills = 8;           ///< Tries of the search.
+constexpr double kDefaultTets = 2000;   ///< What the default cell edge aims at.
+constexpr double kGoodEnough = 0.04;    ///< Relative distance to the aim at which the search for the edge ends.
+constexpr double kLeastCovered = 0.25;  ///< A pseudo volume that covers less of the soup is nothing but stray voxels.
+constexpr int kMaxFills = 8;            ///< Tries of the search.
 constexpr double kSmallestCellVoxels =
     0.75;  ///< The search makes no cells smaller: they would see no more of the shape.
 
@@ -42,31 +43,50 @@ struct Fill {
   bool by_soup = false;
 };
 
+/// Whether density left a body: at least every second tet has another of its own cell beside it. What it leaves of a
+/// sheet thinner than a cell is crumbs.
+bool holds_together(const KeptCells& kept) {
+  std::size_t beside = 0;
+  for (const KeptCell& k : kept.cells) {
+    const auto corners = static_cast<std::size_t>(std::popcount(k.tets & 0b11110U));
+    if ((k.tets & 1U) && corners > 0) beside += corners + 1;
+  }
+  return beside > 0 && 2 * beside >= kept.tet_count;
+}
+
 class Filler {
  public:
   Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options, StageWatch& watch)
       : volume_(volume), soup_(soup), options_(options), watch_(watch), grid_(volume.inside.frame) {}
 
+  /// The edge is raised where single precision cannot hold so fine a lattice, as the voxels' edge is.
+  Fill with_cells(int cells) { return fill(std::max(longest_edge(grid_box(grid_)) / cells, finest_cell_size(grid_))); }
+
   Fill with_cell_size(double cell_size) {
     require(cell_size >= finest_cell_size(grid_), "cell_size", cell_size,
             "at least " + std::to_string(finest_cell_size(grid_)) +
                 ", or single precision cannot hold the vertices so far from the origin");
-    Fill fill = try_density(cell_size);
-    return fill.kept.tet_count > 0 ? fill : try_soup(cell_size);
+    return fill(cell_size);
   }
 
   /// Looks for the edge that gives about the default count: by density, and along the soup where density leaves
   /// nothing.
   Fill with_default_size() {
     const double tets = volume_.report.volume * kTetsPerCell / kDefaultTets;
-    if (volume_.report.inside_voxels > 0) {
-      Fill fill = search(std::cbrt(tets), 3, [&](double size) { return try_density(size); });
-      if (fill.kept.tet_count > 0) return fill;
+    if (has_volume()) {
+      Fill dense = search(std::cbrt(tets), 3, [&](double size) { return try_density(size); });
+      if (holds_together(dense.kept)) return dense;
     }
     return search(longest_edge(grid_box(grid_)) / 16, 2, [&](double size) { return try_soup(size); });
   }
 
  private:
+  bool has_volume() const { return volume_.report.inside_voxels > 0 && volume_.report.soup_covered >= kLeastCovered; }
+  Fill fill(double cell_size) {
+    Fill dense;
+    if (has_volume()) dense = try_density(cell_size);
+    return holds_together(dense.kept) ? dense : try_soup(cell_size);
+  }
   Fill try_density(double cell_size) {
     Fill fill{make_checked_frame(cell_size), {}, false};
     fill.kept = keep_dense_tets(volume_.inside, fill.frame, options_.rho_min, watch_);
@@ -168,8 +188,7 @@ LatticeMesh fill_lattice(const PseudoVolume& volume, const CleanSoup& soup, cons
   if (soup.report.used_triangles == 0) throw InvalidInput("the soup has no finite triangle");
   StageWatch watch(progress, "lattice");
   Filler filler(volume, soup, options, watch);
-  const double longest = longest_edge(grid_box(volume.inside.frame));
-  const Fill fill = options.cells       ? filler.with_cell_size(longest / *options.cells)
+  const Fill fill = options.cells       ? filler.with_cells(*options.cells)
                     : options.cell_size ? filler.with_cell_size(*options.cell_size)
                                         : filler.with_default_size();
 

@@ -147,6 +147,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
     report.cavity_voxels = fill_cavities(trial.inside, mark_below(field.distance, sealed), watch);
     report.inside_voxels += report.cavity_voxels;
   }
+  report.soup_covered = covered_share(trial.inside, marks.touched);
   report.band = report.band_voxels * frame.voxel_size;
   report.k = field.d_max > 0 ? std::max(0.0, 1 - report.band / field.d_max) : 0;
   report.volume = static_cast<double>(report.inside_voxels) * std::pow(frame.voxel_size, 3);

@@ -25,27 +25,6 @@ std::uint64_t grown_along_x(const std::uint64_t* row, std::size_t w, std::size_t
   return row ? row[w] | shifted_up(row, w) | shifted_down(row, w, words) : 0;
 }
 
-/// Share of the touched voxels that have an inside voxel among their 27 neighbours.
-double covered_share(const BitGrid& inside, const BitGrid& touched) {
-  const RowReader rows{inside};
-  const std::size_t words = inside.words_per_row;
-  std::size_t all = 0, covered = 0;
-  for (int z = 0; z < inside.frame.size[2]; ++z) {
-    for (int y = 0; y < inside.frame.size[1]; ++y) {
-      const std::uint64_t* touch = touched.words.data() + touched.row(y, z);
-      for (std::size_t w = 0; w < words; ++w) {
-        if (touch[w] == 0) continue;
-        std::uint64_t grown = 0;
-        for (int dz = -1; dz <= 1; ++dz)
-          for (int dy = -1; dy <= 1; ++dy) grown |= grown_along_x(rows.at(y + dy, z + dz), w, words);
-        all += static_cast<std::size_t>(std::popcount(touch[w]));
-        covered += static_cast<std::size_t>(std::popcount(touch[w] & grown));
-      }
-    }
-  }
-  return all == 0 ? 1 : static_cast<double>(covered) / static_cast<double>(all);
-}
-
 /// Share of the faces between an inside and an outside voxel that have one of the two near the soup.
 double near_share(const BitGrid& inside, const BitGrid& near) {
   const RowReader in{inside}, by{near};
@@ -72,6 +51,26 @@ double near_share(const BitGrid& inside, const BitGrid& near) {
 }
 
 }  // namespace
+
+double covered_share(const BitGrid& inside, const BitGrid& touched) {
+  const RowReader rows{inside};
+  const std::size_t words = inside.words_per_row;
+  std::size_t all = 0, covered = 0;
+  for (int z = 0; z < inside.frame.size[2]; ++z) {
+    for (int y = 0; y < inside.frame.size[1]; ++y) {
+      const std::uint64_t* touch = touched.words.data() + touched.row(y, z);
+      for (std::size_t w = 0; w < words; ++w) {
+        if (touch[w] == 0) continue;
+        std::uint64_t grown = 0;
+        for (int dz = -1; dz <= 1; ++dz)
+          for (int dy = -1; dy <= 1; ++dy) grown |= grown_along_x(rows.at(y + dy, z + dz), w, words);
+        all += static_cast<std::size_t>(std::popcount(touch[w]));
+        covered += static_cast<std::size_t>(std::popcount(touch[w] & grown));
+      }
+    }
+  }
+  return all == 0 ? 1 : static_cast<double>(covered) / static_cast<double>(all);
+}
 
 BitGrid majority(const GridFrame& frame, const std::vector<VoteWord>& votes, int rays) {
   BitGrid inside = make_bit_grid(frame);

@@ -32,6 +32,9 @@ struct VoteStatistics {
 VoteStatistics summarize_votes(const BitGrid& inside, const BitGrid& unpadded, const std::vector<VoteWord>& votes,
                                int rays);
 
+/// Share of the touched voxels that have an inside voxel among their 27 neighbours.
+double covered_share(const BitGrid& inside, const BitGrid& touched);
+
 /// The score of docs/METHOD.md: both sides agree, the boundary runs along the soup, the soup is covered.
 double score_votes(const BitGrid& inside, const SoupMarks& marks, const VoteStatistics& statistics);
 
