@@ -46,6 +46,10 @@ class StageWatch {
   void tick(double done) {
     if (progress_ && std::this_thread::get_id() == owner_ && !stopped()) tell(begin_ + (end_ - begin_) * done);
   }
+  /// The same without news, for long bodies.
+  void poll() {
+    if (progress_ && std::this_thread::get_id() == owner_ && !stopped()) tell(told_);
+  }
   void throw_if_stopped() const {
     if (stopped()) throw Cancelled();
   }

@@ -86,7 +86,8 @@ void raster_band(std::span<const kernel::TrianglePlan> triangles, float band_vox
     std::size_t count = 0;
     for (const std::uint32_t i : bins[static_cast<std::size_t>(slab)]) {
       raster_triangle(triangles[i], band_voxels, layers, squares);
-      if (++count % 256 == 0 && watch.stopped()) return;
+      if (++count % 256 == 0) watch.poll();
+      if (watch.stopped()) return;
     }
   });
 }

@@ -6,7 +6,8 @@ namespace tetsoup {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
-constexpr int kMaxDepth = 64;  ///< Median splits of 2^32 triangles are 32 deep.
+constexpr std::uint32_t kStepNodes = 1024;  ///< Nodes between two looks at the progress callback.
+constexpr int kMaxDepth = 64;               ///< Median splits of 2^32 triangles are 32 deep.
 /// A box is skipped only if it is farther than the best by more than rounding, so that no exact nearest is lost.
 constexpr float kSlack = 1.0F + 0x1p-14F;
 constexpr float kSlackAbsolute = 1e-6F;  // voxels squared
@@ -24,17 +25,18 @@ float coordinate(const Vec3& v, int axis) {
 
 }  // namespace
 
-TriangleTree::TriangleTree(std::span<const kernel::TrianglePlan> triangles) : order_(triangles.size()) {
+TriangleTree::TriangleTree(std::span<const kernel::TrianglePlan> triangles, StageWatch& watch)
+    : order_(triangles.size()) {
   std::iota(order_.begin(), order_.end(), 0U);
   nodes_.reserve(triangles.size());
-  build(triangles, 0, static_cast<std::uint32_t>(triangles.size()));
+  build(triangles, 0, static_cast<std::uint32_t>(triangles.size()), watch);
   triangles_.reserve(triangles.size());
   for (const std::uint32_t i : order_) triangles_.push_back(triangles[i]);
   order_ = {};
 }
 
 std::uint32_t TriangleTree::build(std::span<const kernel::TrianglePlan> triangles, std::uint32_t begin,
-                                  std::uint32_t end) {
+                                  std::uint32_t end, StageWatch& watch) {
   Node node{triangles[order_[begin]].corner[0], triangles[order_[begin]].corner[0], begin, end - begin};
   for (std::uint32_t i = begin; i < end; ++i) {
     for (const Vec3& v : triangles[order_[i]].corner) {
@@ -45,6 +47,7 @@ std::uint32_t TriangleTree::build(std::span<const kernel::TrianglePlan> triangle
   const auto self = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back(node);
   if (end - begin <= kLeafSize) return self;
+  if (self % kStepNodes == 0) watch.step(0);
 
   const Vec3 size{node.hi.x - node.lo.x, node.hi.y - node.lo.y, node.hi.z - node.lo.z};
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -58,8 +61,8 @@ std::uint32_t TriangleTree::build(std::span<const kernel::TrianglePlan> triangle
                      const float ca = centre(a), cb = centre(b);
                      return ca != cb ? ca < cb : a < b;
                    });
-  build(triangles, begin, middle);
-  const std::uint32_t second = build(triangles, middle, end);
+  build(triangles, begin, middle, watch);
+  const std::uint32_t second = build(triangles, middle, end, watch);
   nodes_[self].next = second;
   nodes_[self].count = 0;
   return self;

@@ -5,13 +5,14 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "kernel/triangle_distance.h"
 
 namespace tetsoup {
 
 class TriangleTree {
  public:
-  explicit TriangleTree(std::span<const kernel::TrianglePlan> triangles);
+  TriangleTree(std::span<const kernel::TrianglePlan> triangles, StageWatch& watch);
 
   /// Squared distance to the nearest triangle if that is below `bound`, else some value not below `bound`.
   /// The same bits as the least of kernel::squared_distance over all triangles.
@@ -23,7 +24,8 @@ class TriangleTree {
     std::uint32_t next = 0;   ///< Inner: the second child (the first follows its parent). Leaf: first triangle.
     std::uint32_t count = 0;  ///< Triangles of a leaf; 0 for an inner node.
   };
-  std::uint32_t build(std::span<const kernel::TrianglePlan> triangles, std::uint32_t begin, std::uint32_t end);
+  std::uint32_t build(std::span<const kernel::TrianglePlan> triangles, std::uint32_t begin, std::uint32_t end,
+                      StageWatch& watch);
   static float squared_distance(const Node& node, float x, float y, float z);
 
   std::vector<Node> nodes_;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/bits.h"
 #include "base/parallel.h"
 #include "base/require.h"
 #include "distance/band_raster.h"
@@ -46,10 +47,38 @@ void squares_to_lengths(std::vector<float>& values, float band_squared, float vo
                });
 }
 
-/// Asks the tree for every voxel that is still unknown. Along a row the last answer plus one step bounds the next.
-void fill_unknown(const TriangleTree& tree, float band_squared, Grid<float>& distance, StageWatch& watch) {
+float squared_band(double band_voxels) {
+  const auto band = static_cast<float>(std::min(band_voxels, 1e6));  // beyond any grid
+  return band * band;
+}
+
+/// Voxels that a band of `to` voxels can reach if all distances below `from` are known: on the way to its nearest point
+/// such a voxel meets the known ones after to - from voxels, give or take half a voxel's diagonal twice.
+BitGrid reachable(const Grid<float>& distance, double from, double to, StageWatch& watch) {
+  constexpr double kDiagonal = 1.74;
+  const GridFrame& frame = distance.frame;
+  BitGrid known = make_bit_grid(frame);
+  const std::int64_t rows = static_cast<std::int64_t>(frame.size[1]) * frame.size[2];
+  const auto nx = static_cast<std::size_t>(frame.size[0]);
+  parallel_for(rows, 64, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row)
+      for (std::size_t x = 0; x < nx; ++x)
+        known.words[row * known.words_per_row + x / 64] |=
+            static_cast<std::uint64_t>(distance.values[row * nx + x] < kInfinity) << (x % 64);
+  });
+  return dilated(known, static_cast<int>(std::ceil(to - from + kDiagonal)));
+}
+
+/// Asks the tree for every unknown voxel that the band can reach. Along a row the last answer plus one step bounds the
+/// next.
+void fill_unknown(const TriangleTree& tree, double known_voxels, double band_voxels, Grid<float>& distance,
+                  StageWatch& watch) {
+  constexpr double kLocal = 16;  // voxels; a band that grows by more reaches most of the grid anyway
   const GridFrame& frame = distance.frame;
   const auto voxel_size = static_cast<float>(frame.voxel_size);
+  const float band_squared = squared_band(band_voxels);
+  const bool local = band_voxels - known_voxels < kLocal;
+  const BitGrid wanted = local ? reachable(distance, known_voxels, band_voxels, watch) : BitGrid{};
   const std::int64_t rows = static_cast<std::int64_t>(frame.size[1]) * frame.size[2];
   parallel_for(rows, 2, watch, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t row = begin; row < end; ++row) {
@@ -57,6 +86,10 @@ void fill_unknown(const TriangleTree& tree, float band_squared, Grid<float>& dis
       float* values = distance.values.data() + distance.index(0, y, z);
       float bound = band_squared;
       for (int x = 0; x < frame.size[0]; ++x) {
+        if (local && !wanted.test(x, y, z)) {
+          bound = band_squared;
+          continue;
+        }
         if (!(values[x] < kInfinity)) {
           const float square =
               tree.nearest_squared(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), bound);
@@ -70,11 +103,6 @@ void fill_unknown(const TriangleTree& tree, float band_squared, Grid<float>& dis
   });
 }
 
-float squared_band(double band_voxels) {
-  const auto band = static_cast<float>(std::min(band_voxels, 1e6));  // beyond any grid
-  return band * band;
-}
-
 }  // namespace
 
 DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& options, const Progress& progress) {
@@ -86,21 +114,19 @@ DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& op
   const std::vector<TrianglePlan> triangles = plan_triangles(soup, frame, watch);
 
   field.distance.values.resize(frame.voxel_count());
-  watch.enter_part(0.02, 0.7);
-  raster_band(triangles, static_cast<float>(options.band_voxels), field.distance, watch);
-  watch.enter_part(0.7, 0.75);
-  squares_to_lengths(field.distance.values, squared_band(options.band_voxels), static_cast<float>(frame.voxel_size),
-                     watch);
-  field.band = options.band_voxels * frame.voxel_size;
+  const bool full = options.mode == DistanceMode::Full;
+  const double band = full ? std::numeric_limits<double>::infinity() : options.band_voxels;
+  const double raster = std::min(band, kRasterBand);
+  watch.enter_part(0.02, full ? 0.2 : 0.7);
+  raster_band(triangles, static_cast<float>(raster), field.distance, watch);
+  squares_to_lengths(field.distance.values, squared_band(raster), static_cast<float>(frame.voxel_size), watch);
 
-  watch.enter_part(0.75, 1);
-  const TriangleTree tree(triangles);
+  const TriangleTree tree(triangles, watch);
   const float farthest = farthest_voxel_squared(tree, frame, watch);
   field.d_max = static_cast<double>(std::sqrt(farthest) * static_cast<float>(frame.voxel_size));
-  if (options.mode == DistanceMode::Full) {
-    fill_unknown(tree, squared_band(std::numeric_limits<double>::infinity()), field.distance, watch);
-    field.band = std::numeric_limits<double>::infinity();
-  }
+  watch.enter_part(full ? 0.2 : 0.7, 1);
+  if (band > raster) fill_unknown(tree, raster, band, field.distance, watch);
+  field.band = band * frame.voxel_size;
   return field;
 }
 
@@ -110,9 +136,9 @@ void widen_distance(DistanceField& field, const CleanSoup& soup, double band_vox
   StageWatch watch(progress, "distance");
   try {
     watch.enter_part(0, 0.05);
-    const TriangleTree tree(plan_triangles(soup, frame, watch));
+    const TriangleTree tree(plan_triangles(soup, frame, watch), watch);
     watch.enter_part(0.05, 1);
-    fill_unknown(tree, squared_band(band_voxels), field.distance, watch);
+    fill_unknown(tree, field.band / frame.voxel_size, band_voxels, field.distance, watch);
   } catch (...) {
     const auto known = static_cast<float>(field.band);
     for (float& d : field.distance.values)

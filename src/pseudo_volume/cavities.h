@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/parallel.h"
-#include "pseudo_volume/bits.h"
+#include "base/bits.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {

@@ -104,9 +104,15 @@ void expand_votes(const std::vector<VoteWord>& votes, std::size_t words_per_row,
   bytes.values.resize(bytes.frame.voxel_count());
   const auto rows = static_cast<std::int64_t>(bytes.values.size() / nx);
   parallel_for(rows, 64, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row)
-      for (std::size_t x = 0; x < nx; ++x)
-        bytes.values[row * nx + x] = votes[row * words_per_row + x / 64].at(static_cast<unsigned>(x % 64));
+    for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row) {
+      std::uint8_t* out = bytes.values.data() + row * nx;
+      for (std::size_t w = 0; w < words_per_row; ++w) {
+        const VoteWord& word = votes[row * words_per_row + w];
+        if (word.above(0) == 0) continue;
+        for (std::size_t x = 64 * w; x < std::min(nx, 64 * w + 64); ++x)
+          out[x] = word.at(static_cast<unsigned>(x % 64));
+      }
+    }
   });
 }
 
@@ -122,7 +128,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   check_options(options);
   const GridFrame& frame = field.distance.frame;
   StageWatch watch(progress, "pseudo_volume");
-  const SoupMarks marks = mark_soup(field.distance);
+  const SoupMarks marks = mark_soup(field.distance, watch);
 
   PseudoVolume result;
   result.rays = options.rays;
@@ -143,8 +149,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
 
   report.inside_voxels = trial.statistics.inside;
   if (options.cavities == Cavities::Fill && !report.wants_band_voxels) {
-    const auto sealed = static_cast<float>(kFloorVoxels * frame.voxel_size);
-    report.cavity_voxels = fill_cavities(trial.inside, mark_below(field.distance, sealed), watch);
+    report.cavity_voxels = fill_cavities(trial.inside, marks.sealed, watch);
     report.inside_voxels += report.cavity_voxels;
   }
   report.soup_covered = covered_share(trial.inside, marks.touched);

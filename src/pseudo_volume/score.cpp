@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kNearVoxels = 1.2;       ///< A boundary face this close to the soup is where it belongs.
 constexpr double kTouchedVoxels = 0.6;    ///< Voxels that the soup passes through, nearly.
+constexpr double kSealedVoxels = 0.9;     ///< More than the 0.87 that half a diagonal step may pass by.
 constexpr double kNearFloor = 0.02;       ///< Keeps a boundary that is nowhere near the soup comparable.
 constexpr double kInsideConsensus = 0.4;  ///< Below this the inside is speckle.
 
@@ -79,31 +80,32 @@ BitGrid majority(const GridFrame& frame, const std::vector<VoteWord>& votes, int
   return inside;
 }
 
-BitGrid mark_below(const Grid<float>& distance, float limit) {
-  BitGrid bits = make_bit_grid(distance.frame);
-  const auto [nx, ny, nz] = distance.frame.size;
-  const int pad = distance.frame.pad;
-  for (int z = pad; z < nz - pad; ++z) {
-    for (int y = pad; y < ny - pad; ++y) {
+SoupMarks mark_soup(const Grid<float>& distance, StageWatch& watch) {
+  const GridFrame& frame = distance.frame;
+  SoupMarks marks{make_bit_grid(frame), make_bit_grid(frame), make_bit_grid(frame), make_bit_grid(frame)};
+  const auto length = [&](double voxels) { return static_cast<float>(voxels * frame.voxel_size); };
+  const float near = length(kNearVoxels), sealed = length(kSealedVoxels), touched = length(kTouchedVoxels);
+  const int pad = frame.pad, ny = frame.size[1];
+  const std::int64_t rows = static_cast<std::int64_t>(ny) * frame.size[2];
+  parallel_for(rows, 64, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t index = begin; index < end; ++index) {
+      const int y = static_cast<int>(index % ny), z = static_cast<int>(index / ny);
+      if (y < pad || z < pad || y >= ny - pad || z >= frame.size[2] - pad) continue;
       const float* values = distance.values.data() + distance.index(0, y, z);
-      std::uint64_t* row = bits.words.data() + bits.row(y, z);
-      for (int x = pad; x < nx - pad; ++x) row[x >> 6] |= static_cast<std::uint64_t>(values[x] < limit) << (x & 63);
+      const std::size_t row = marks.near.row(y, z);
+      for (int x = pad; x < frame.size[0] - pad; ++x) {
+        const std::size_t word = row + static_cast<std::size_t>(x >> 6);
+        const auto mark = [&](BitGrid& bits, bool set) {
+          bits.words[word] |= static_cast<std::uint64_t>(set) << (x & 63);
+        };
+        mark(marks.unpadded, true);
+        if (!(values[x] < near)) continue;
+        mark(marks.near, true);
+        mark(marks.sealed, values[x] < sealed);
+        mark(marks.touched, values[x] < touched);
+      }
     }
-  }
-  return bits;
-}
-
-SoupMarks mark_soup(const Grid<float>& distance) {
-  const auto length = [&](double voxels) { return static_cast<float>(voxels * distance.frame.voxel_size); };
-  SoupMarks marks{mark_below(distance, length(kNearVoxels)), mark_below(distance, length(kTouchedVoxels)),
-                  make_bit_grid(distance.frame)};
-  const auto [nx, ny, nz] = distance.frame.size;
-  const int pad = distance.frame.pad;
-  for (int z = pad; z < nz - pad; ++z)
-    for (int y = pad; y < ny - pad; ++y)
-      for (int x = pad; x < nx - pad; ++x)
-        marks.unpadded.words[marks.unpadded.row(y, z) + static_cast<std::size_t>(x >> 6)] |= std::uint64_t{1}
-                                                                                             << (x & 63);
+  });
   return marks;
 }
 

@@ -13,16 +13,15 @@ namespace tetsoup {
 /// Inside bits of a vote: a strict majority of the rays.
 BitGrid majority(const GridFrame& frame, const std::vector<VoteWord>& votes, int rays);
 
-/// Voxels whose distance is below `limit`, without the padding.
-BitGrid mark_below(const Grid<float>& distance, float limit);
-
-/// What the score needs of the soup, the same for all candidates.
+/// What the score and the cavities need of the soup, the same for all candidates. Without the padding, which must not
+/// change the choice.
 struct SoupMarks {
-  BitGrid near;      ///< Within 1.2 voxels of the soup.
+  BitGrid near;      ///< Voxels within 1.2 voxels of the soup.
+  BitGrid sealed;    ///< Within 0.9 voxels: no path of face neighbours leads through a closed surface past these.
   BitGrid touched;   ///< Within 0.6 voxels.
-  BitGrid unpadded;  ///< Voxels of the soup's box: padding must not change the choice.
+  BitGrid unpadded;  ///< All voxels of the soup's box.
 };
-SoupMarks mark_soup(const Grid<float>& distance);
+SoupMarks mark_soup(const Grid<float>& distance, StageWatch& watch);
 
 struct VoteStatistics {
   std::size_t inside = 0;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pseudo_volume/bits.h"
+#include "base/bits.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {

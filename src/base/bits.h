@@ -1,6 +1,7 @@
 // Arithmetic on rows of bits, 64 voxels a word.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -49,6 +50,39 @@ inline std::uint64_t reversed(std::uint64_t v) {
   v = (v >> 8 & 0x00FF00FF00FF00FFU) | (v & 0x00FF00FF00FF00FFU) << 8;
   v = (v >> 16 & 0x0000FFFF0000FFFFU) | (v & 0x0000FFFF0000FFFFU) << 16;
   return v >> 32 | v << 32;
+}
+
+/// Bits with a set bit within `radius` voxels along every axis (a cube around it).
+inline BitGrid dilated(const BitGrid& bits, int radius) {
+  const auto [nx, ny, nz] = bits.frame.size;
+  const std::size_t words = bits.words_per_row;
+  BitGrid out = bits;
+  for (std::size_t row = 0; row < out.words.size(); row += words) {
+    for (int step = 0; step < radius; ++step) {
+      std::uint64_t* line = out.words.data() + row;
+      std::uint64_t below = 0;  // the line as it was: the word before this one
+      for (std::size_t w = 0; w < words; ++w) {
+        const std::uint64_t here = line[w];
+        line[w] = here | here << 1 | below >> 63 | shifted_down(line, w, words);
+        below = here;
+      }
+      line[words - 1] &= row_mask(nx, words - 1);
+    }
+  }
+  // Along y, then z: or the rows within reach. `stride` is the distance of two neighbours, in words.
+  const auto spread = [&](int count, std::size_t stride) {
+    const BitGrid from = out;
+    for (std::size_t i = 0; i < out.words.size(); ++i) {
+      const int at = static_cast<int>(i / stride % static_cast<std::size_t>(count));
+      std::uint64_t any = 0;
+      for (int j = std::max(0, at - radius); j <= std::min(count - 1, at + radius); ++j)
+        any |= from.words[i - static_cast<std::size_t>(at) * stride + static_cast<std::size_t>(j) * stride];
+      out.words[i] = any;
+    }
+  };
+  spread(ny, words);
+  spread(nz, words * static_cast<std::size_t>(ny));
+  return out;
 }
 
 }  // namespace tetsoup
