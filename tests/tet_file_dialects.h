@@ -41,7 +41,7 @@ inline std::string msh41_binary(const TetMesh& mesh) {
   const std::uint64_t tets = mesh.tets.size();
   for (const std::uint64_t head : {std::uint64_t{2}, tets + 1, std::uint64_t{1}, tets + 1}) append_raw(b, head);
   for (const std::int32_t head : {2, 1, 2}) append_raw(b, head);
-  for (const std::uint64_t number : {1, 1, 10, 13, 16}) append_raw(b, number);
+  for (const std::uint64_t number : {1U, 1U, 10U, 13U, 16U}) append_raw(b, number);
   for (const std::int32_t head : {3, 1, 4}) append_raw(b, head);
   append_raw(b, tets);
   for (std::uint64_t i = 0; i < tets; ++i) {

@@ -54,7 +54,7 @@ inline std::uint64_t reversed(std::uint64_t v) {
 
 /// Bits with a set bit within `radius` voxels along every axis (a cube around it).
 inline BitGrid dilated(const BitGrid& bits, int radius) {
-  const auto [nx, ny, nz] = bits.frame.size;
+  const int nx = bits.frame.size[0], ny = bits.frame.size[1], nz = bits.frame.size[2];
   const std::size_t words = bits.words_per_row;
   BitGrid out = bits;
   for (std::size_t row = 0; row < out.words.size(); row += words) {

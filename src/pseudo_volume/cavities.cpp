@@ -26,7 +26,7 @@ bool spread_along_row(std::uint64_t* reached, const std::uint64_t* free, std::si
 /// Free voxels connected, through faces, to a free voxel of the grid's border.
 BitGrid flood_from_border(const BitGrid& free, StageWatch& watch) {
   BitGrid reached = make_bit_grid(free.frame);
-  const auto [nx, ny, nz] = free.frame.size;
+  const int nx = free.frame.size[0], ny = free.frame.size[1], nz = free.frame.size[2];
   const std::size_t words = free.words_per_row;
   std::vector<std::uint32_t> pending;
   std::vector<char> queued(static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz), 1);

@@ -27,22 +27,22 @@ class RayCaster {
   }
 
   void run(double begin, double end) {
-    const auto [nx, ny, nz] = distance_.frame.size;
+    const int ny = distance_.frame.size[1], nz = distance_.frame.size[2];
     const auto part = [&](int i) { return begin + (end - begin) * i / 5; };
     for (const int dy : {-1, 0, 1}) {
       watch_.enter_part(part(dy + 1), part(dy + 2));
       const std::int64_t sheets = dy == 0 ? ny : ny + nz - 1;
-      parallel_for(sheets, 2, watch_, [&, ny = ny, nz = nz](std::int64_t first, std::int64_t last) {
+      parallel_for(sheets, 2, watch_, [&](std::int64_t first, std::int64_t last) {
         for (auto i = static_cast<int>(first); i < static_cast<int>(last); ++i)
           cast_sheet(sheet_along_z(dy, i, ny, nz));
       });
     }
     watch_.enter_part(part(3), part(4));
-    parallel_for(nz, 2, watch_, [&, ny = ny](std::int64_t first, std::int64_t last) {
+    parallel_for(nz, 2, watch_, [&](std::int64_t first, std::int64_t last) {
       for (auto z = static_cast<int>(first); z < static_cast<int>(last); ++z) cast_sheet({0, z, 1, 0, ny});
     });
     watch_.enter_part(part(4), part(5));
-    parallel_for(nz, 2, watch_, [&, ny = ny](std::int64_t first, std::int64_t last) {
+    parallel_for(nz, 2, watch_, [&](std::int64_t first, std::int64_t last) {
       for (auto z = static_cast<int>(first); z < static_cast<int>(last); ++z)
         for (int y = 0; y < ny; ++y) cast_along_x(y, z);
     });
