@@ -66,7 +66,7 @@ void Pipeline::run_until(Stage last, const MeshOptions& options, const Progress&
   const auto timed = [&](Stage stage, const auto& body) {
     const Stopwatch stopwatch;
     body();
-    seconds_[index_of(stage)] = stopwatch.seconds();
+    seconds_[index_of(stage)] += stopwatch.seconds();
     ++run_counts_[index_of(stage)];
   };
   // What a changed option invalidates goes first, so that a cancelled run leaves no result that does not match.
@@ -75,6 +75,13 @@ void Pipeline::run_until(Stage last, const MeshOptions& options, const Progress&
   if (!volume_ || !(options.lattice == options_.lattice)) lattice_.reset();
   if (!lattice_ || !(options.smooth == options_.smooth)) smooth_.reset();
   options_ = options;
+  const auto restart_clock = [&](Stage stage, bool stands) {
+    if (!stands) seconds_[index_of(stage)] = 0;
+  };
+  restart_clock(Stage::Distance, distance_.has_value());
+  restart_clock(Stage::PseudoVolume, volume_.has_value());
+  restart_clock(Stage::Lattice, lattice_.has_value());
+  restart_clock(Stage::Smooth, smooth_.has_value());
 
   if (!distance_) {
     if (soup_.report.used_triangles == 0) throw InvalidInput("the soup has no finite triangle");

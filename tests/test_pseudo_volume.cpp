@@ -97,7 +97,6 @@ TEST(PseudoVolume, k_of_one_is_parity_counting_on_the_closed_samples) {
     }
     RecordProperty(std::string(name) + "_all_rays", std::to_string(agreement.all_rays));
     RecordProperty(std::string(name) + "_clear_rays", std::to_string(agreement.clear_rays));
-    printf("%s %g %g\n", name, agreement.all_rays, agreement.clear_rays);
   }
 }
 
@@ -201,7 +200,7 @@ TEST(PseudoVolume, wrong_options_are_refused) {
     change(options);
     EXPECT_THROW(classify_volume(field, options), InvalidInput);
   };
-  refused([](auto& o) { o.k = 0; });
+  refused([](auto& o) { o.k = -0.01; });
   refused([](auto& o) { o.k = 1.01; });
   refused([](auto& o) { o.k = std::nan(""); });
   refused([](auto& o) { o.band_voxels = -1; });

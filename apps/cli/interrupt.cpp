@@ -30,6 +30,10 @@ void catch_interrupts() {
     // A shell that starts the tool in the background has SIGINT ignored; that is to stay so.
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
+  // A file beyond the size limit is then a failed write with its message, not the end of the process.
+  struct sigaction ignore {};
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGXFSZ, &ignore, nullptr);
 }
 
 bool interrupted() {

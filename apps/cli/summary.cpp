@@ -28,7 +28,7 @@ std::string describe_dropped(const SoupReport& soup) {
   std::vector<std::string> reasons;
   if (soup.non_finite > 0) reasons.push_back(grouped(soup.non_finite) + " with non-finite coordinates");
   if (soup.index_out_of_range > 0) reasons.push_back(grouped(soup.index_out_of_range) + " with indices out of range");
-  if (soup.duplicates > 0) reasons.push_back(grouped(soup.duplicates) + " that stood there before");
+  if (soup.duplicates > 0) reasons.push_back(grouped(soup.duplicates) + " that repeat another exactly");
   return fmt::format(" {} {} dropped: {}.", counted(dropped, "triangle"), dropped == 1 ? "was" : "were",
                      listed(reasons));
 }
@@ -117,15 +117,15 @@ void note_topology(const Quality& quality, std::vector<std::string>& notes) {
         fmt::format("{} of the mesh have no positive volume. This is a bug; please report it with the input.",
                     counted(quality.inverted_tets + quality.invalid_tets, "tet")));
   if (quality.components > 1)
-    notes.push_back(fmt::format(
-        "The mesh is in {} pieces that share no face. To join what is meant to be one, use fewer cells (--cells), a "
-        "lower --rho-min or a wider band (--band-voxels).",
-        grouped(quality.components)));
+    notes.push_back(
+        fmt::format("The mesh is in {} pieces that share no face. To join what is meant to be one, try a much lower "
+                    "--rho-min, such "
+                    "as 0.1, or smaller cells (--cells).",
+                    grouped(quality.components)));
   if (!quality.boundary_manifold)
     notes.push_back(
-        fmt::format("The boundary touches itself: {} and {} are not manifold. Simulations take that; where a manifold "
-                    "is needed, try "
-                    "another --cells, --translate or --rho-min.",
+        fmt::format("The boundary touches itself: {} and {} are not manifold. Most simulations "
+                    "take that; contact surfaces may not.",
                     counted(quality.non_manifold_edges, "edge"), counted(quality.non_manifold_vertices, "vertex")));
 }
 

@@ -62,7 +62,8 @@ class Pipeline {
   const SmoothResult& smooth() const { return *smooth_; }
 
   std::size_t run_count(Stage stage) const;  ///< Times the stage has run.
-  double seconds(Stage stage) const;         ///< Wall time of the stage's last run.
+  double seconds(
+      Stage stage) const;  ///< Wall time of the stage in the last run that reached it; widening counts as distance.
 
  private:
   CleanSoup soup_;

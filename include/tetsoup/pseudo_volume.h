@@ -26,7 +26,7 @@ enum class Cavities {
 
 /// At most one of `k`, `band_voxels` and `band`; none: automatic.
 struct PseudoVolumeOptions {
-  std::optional<double> k;            ///< Event threshold in (0, 1]: event where 1 - d / d_max > k [Spillmann06 §3].
+  std::optional<double> k;            ///< Event threshold in [0, 1]: event where 1 - d / d_max > k [Spillmann06 §3].
   std::optional<double> band_voxels;  ///< Event where the distance is below so many voxels.
   std::optional<double> band;         ///< Event where the distance is below this length.
   int rays = 26;                      ///< 26: both ways along 13 axes; 13: one way.

@@ -42,19 +42,42 @@ IndexRange near_plane(const kernel::TrianglePlan& t, int y, int z, float band, I
           std::min(x.end, static_cast<int>(limit(centre + half)) + 2)};
 }
 
+/// Ball around a triangle: cuts the corners off the box around a small one.
+struct Ball {
+  Vec3 centre;
+  float radius_squared;
+};
+
+Ball ball_around(const Extent& box, float band) {
+  const Vec3 half{(box.hi.x - box.lo.x) / 2, (box.hi.y - box.lo.y) / 2, (box.hi.z - box.lo.z) / 2};
+  const float radius = std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z) + band + 0.01F;
+  return {{box.lo.x + half.x, box.lo.y + half.y, box.lo.z + half.z}, radius * radius};
+}
+
+IndexRange within_ball(const Ball& ball, int y, int z, IndexRange x) {
+  const float dy = static_cast<float>(y) - ball.centre.y, dz = static_cast<float>(z) - ball.centre.z;
+  const float rest = ball.radius_squared - dy * dy - dz * dz;
+  if (rest < 0) return {0, 0};
+  const float half = std::sqrt(rest);
+  return {std::max(x.begin, static_cast<int>(std::ceil(ball.centre.x - half))),
+          std::min(x.end, static_cast<int>(std::floor(ball.centre.x + half)) + 1)};
+}
+
 void raster_triangle(const kernel::TrianglePlan& t, float band, IndexRange layers, Grid<float>& squares) {
+  constexpr int kLongRow = 24;  // voxels; shorter ones are not worth asking for the plane
   const Extent box = extent_of(t);
+  const Ball ball = ball_around(box, band);
   const IndexRange xs = reach(box.lo.x, box.hi.x, band, squares.frame.size[0]);
   const IndexRange ys = reach(box.lo.y, box.hi.y, band, squares.frame.size[1]);
   IndexRange zs = reach(box.lo.z, box.hi.z, band, squares.frame.size[2]);
   zs = {std::max(zs.begin, layers.begin), std::min(zs.end, layers.end)};
   for (int z = zs.begin; z < zs.end; ++z) {
     for (int y = ys.begin; y < ys.end; ++y) {
-      const IndexRange x = near_plane(t, y, z, band, xs);
+      IndexRange x = within_ball(ball, y, z, xs);
+      if (x.end - x.begin > kLongRow) x = near_plane(t, y, z, band, x);
       if (x.begin >= x.end) continue;
-      kernel::lower_row(
-          t, x.begin, y, z,
-          {squares.values.data() + squares.index(x.begin, y, z), static_cast<std::size_t>(x.end - x.begin)});
+      float* values = squares.values.data() + squares.index(x.begin, y, z);
+      kernel::lower_row(t, x.begin, y, z, {values, static_cast<std::size_t>(x.end - x.begin)});
     }
   }
 }
@@ -73,6 +96,18 @@ std::vector<std::vector<std::uint32_t>> bin_by_slab(std::span<const kernel::Tria
 }
 
 }  // namespace
+
+double raster_work(std::span<const kernel::TrianglePlan> triangles, float band_voxels) {
+  double work = 0;
+  for (const kernel::TrianglePlan& t : triangles) {
+    const Extent box = extent_of(t);
+    const double x = box.hi.x - box.lo.x + 2 * band_voxels, y = box.hi.y - box.lo.y + 2 * band_voxels,
+                 z = box.hi.z - box.lo.z + 2 * band_voxels;
+    const double steep = std::abs(t.normal.x), cut = steep > 0.02 ? 2 * (band_voxels + 1) / steep : x;
+    work += std::min(x, cut) * y * z;
+  }
+  return work;
+}
 
 void raster_band(std::span<const kernel::TrianglePlan> triangles, float band_voxels, Grid<float>& squares,
                  StageWatch& watch) {

@@ -18,6 +18,8 @@ constexpr std::int64_t kValuesPerTask = 1 << 16;
 /// Voxels; what every triangle lowers directly. Beyond, asking the tree once a voxel is cheaper than every triangle's
 /// cube.
 constexpr double kRasterBand = 4;
+/// Looks at a voxel, on average, beyond which the tree is asked for all of them: triangles that are large and many.
+constexpr double kMaxLooks = 200;
 
 /// The soup in voxel units: voxel centres are the whole numbers. Planned from double coordinates, so position and scale
 /// of the soup cost no precision here.
@@ -77,7 +79,7 @@ void fill_unknown(const TriangleTree& tree, double known_voxels, double band_vox
   const GridFrame& frame = distance.frame;
   const auto voxel_size = static_cast<float>(frame.voxel_size);
   const float band_squared = squared_band(band_voxels);
-  const bool local = band_voxels - known_voxels < kLocal;
+  const bool local = known_voxels > 0 && band_voxels - known_voxels < kLocal;
   const BitGrid wanted = local ? reachable(distance, known_voxels, band_voxels, watch) : BitGrid{};
   const std::int64_t rows = static_cast<std::int64_t>(frame.size[1]) * frame.size[2];
   parallel_for(rows, 2, watch, [&](std::int64_t begin, std::int64_t end) {
@@ -116,7 +118,9 @@ DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& op
   field.distance.values.resize(frame.voxel_count());
   const bool full = options.mode == DistanceMode::Full;
   const double band = full ? std::numeric_limits<double>::infinity() : options.band_voxels;
-  const double raster = std::min(band, kRasterBand);
+  double raster = std::min(band, kRasterBand);
+  const double work = raster_work(triangles, static_cast<float>(raster));
+  if (work > kMaxLooks * static_cast<double>(frame.voxel_count())) raster = 0;
   watch.enter_part(0.02, full ? 0.2 : 0.7);
   raster_band(triangles, static_cast<float>(raster), field.distance, watch);
   squares_to_lengths(field.distance.values, squared_band(raster), static_cast<float>(frame.voxel_size), watch);

@@ -60,10 +60,6 @@ bool parse_plain(std::string_view word, float& value) {
 
 }  // namespace
 
-void append_number(std::string& text, float value) {
-  append_shortest(text, value);
-}
-
 void append_number(std::string& text, double value) {
   append_shortest(text, value);
 }

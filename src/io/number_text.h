@@ -8,8 +8,13 @@
 
 namespace tetsoup {
 
-void append_number(std::string& text, float value);
+/// The shortest decimals that read back as this number in double precision. Floats are written as doubles too: most
+/// programs read doubles, and the float's own shortest decimals would give them a vertex half a float step away, enough
+/// to break an angle at its floor.
 void append_number(std::string& text, double value);
+inline void append_number(std::string& text, float value) {
+  append_number(text, static_cast<double>(value));
+}
 
 template <std::integral Integer>
 void append_number(std::string& text, Integer value) {

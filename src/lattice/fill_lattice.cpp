@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/bits.h"
 #include "base/require.h"
 #include "base/tet_geometry.h"
 #include "lattice/kept_cells.h"
@@ -14,7 +15,10 @@ constexpr double kMaxTets = 2147483648.0;
 constexpr double kDefaultTets = 2000;   ///< What the default cell edge aims at.
 constexpr double kGoodEnough = 0.04;    ///< Relative distance to the aim at which the search for the edge ends.
 constexpr double kLeastCovered = 0.25;  ///< A pseudo volume that covers less of the soup is nothing but stray voxels.
-constexpr int kMaxFills = 8;            ///< Tries of the search.
+constexpr double kLeastCore =
+    0.02;  ///< Share of inside voxels within inside voxels; below, the volume is a mere sheet.
+constexpr double kWholeCells = 0.15;  ///< A whole number of cells is preferred while the count stays this near the aim.
+constexpr int kMaxFills = 8;          ///< Tries of the search.
 constexpr double kSmallestCellVoxels =
     0.75;  ///< The search makes no cells smaller: they would see no more of the shape.
 
@@ -54,6 +58,30 @@ bool holds_together(const KeptCells& kept) {
   return beside > 0 && 2 * beside >= kept.tet_count;
 }
 
+/// Share of the inside voxels whose six neighbours are inside too.
+double core_share(const BitGrid& inside) {
+  const std::size_t words = inside.words_per_row;
+  std::size_t all = 0, core = 0;
+  for (int z = 0; z < inside.frame.size[2]; ++z) {
+    for (int y = 0; y < inside.frame.size[1]; ++y) {
+      const auto row = [&](int dy, int dz) -> const std::uint64_t* {
+        const bool within =
+            y + dy >= 0 && z + dz >= 0 && y + dy < inside.frame.size[1] && z + dz < inside.frame.size[2];
+        return within ? inside.words.data() + inside.row(y + dy, z + dz) : nullptr;
+      };
+      const std::uint64_t* here = row(0, 0);
+      for (std::size_t w = 0; w < words; ++w) {
+        if (here[w] == 0) continue;
+        std::uint64_t bits = here[w] & shifted_up(here, w) & shifted_down(here, w, words);
+        for (const std::uint64_t* other : {row(-1, 0), row(1, 0), row(0, -1), row(0, 1)}) bits &= other ? other[w] : 0;
+        all += static_cast<std::size_t>(std::popcount(here[w]));
+        core += static_cast<std::size_t>(std::popcount(bits));
+      }
+    }
+  }
+  return all == 0 ? 0 : static_cast<double>(core) / static_cast<double>(all);
+}
+
 class Filler {
  public:
   Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options, StageWatch& watch)
@@ -75,13 +103,14 @@ class Filler {
     const double tets = volume_.report.volume * kTetsPerCell / kDefaultTets;
     if (has_volume()) {
       Fill dense = search(std::cbrt(tets), 3, [&](double size) { return try_density(size); });
-      if (holds_together(dense.kept)) return dense;
+      if (holds_together(dense.kept)) return with_whole_cells(std::move(dense));
     }
     return search(longest_edge(grid_box(grid_)) / 16, 2, [&](double size) { return try_soup(size); });
   }
 
  private:
-  bool has_volume() const { return volume_.report.inside_voxels > 0 && volume_.report.soup_covered >= kLeastCovered; }
+  bool has_volume() const { return volume_.report.inside_voxels > 0 && volume_.report.soup_covered >= kLeastCovered &&
+           core_share(volume_.inside) >= kLeastCore; }
   Fill fill(double cell_size) {
     Fill dense;
     if (has_volume()) dense = try_density(cell_size);
@@ -98,6 +127,21 @@ class Filler {
     return fill;
   }
 
+  /// The same with the next whole number of cells along the longest axis, so that the lattice ends where the box does:
+  /// a block is then met exactly.
+  Fill with_whole_cells(Fill fill) {
+    const double longest = longest_edge(grid_box(grid_)), cells = longest / fill.frame.cell_size;
+    for (const double whole : {std::round(cells), std::round(cells) > cells ? std::floor(cells) : std::ceil(cells)}) {
+      if (whole < 1 || longest / whole < smallest_cell()) continue;
+      Fill other = try_density(longest / whole);
+      const double miss = std::abs(static_cast<double>(other.kept.tet_count) / kDefaultTets - 1);
+      if (miss <= kWholeCells && holds_together(other.kept)) return other;
+    }
+    return fill;
+  }
+
+  double smallest_cell() const { return std::max(kSmallestCellVoxels * grid_.voxel_size, finest_cell_size(grid_)); }
+
   LatticeFrame make_checked_frame(double cell_size) const {
     const Box3 box = grid_box(grid_);
     const Vec3d e = (box.hi - box.lo) * (1 / cell_size);
@@ -110,7 +154,7 @@ class Filler {
   /// The count goes as edge^-power; each try corrects the edge by what the last one missed.
   template <class Try>
   Fill search(double cell_size, double power, const Try& try_size) {
-    const double smallest = std::max(kSmallestCellVoxels * grid_.voxel_size, finest_cell_size(grid_));
+    const double smallest = smallest_cell();
     const double largest = longest_edge(grid_box(grid_));
     Fill best;
     double best_miss = 1e300;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "base/require.h"
@@ -34,7 +35,7 @@ struct Trial {
 void check_options(const PseudoVolumeOptions& options) {
   if (int{options.k.has_value()} + int{options.band.has_value()} + int{options.band_voxels.has_value()} > 1)
     throw InvalidInput("give at most one of k, band_voxels and band");
-  require(!options.k || (*options.k > 0 && *options.k <= 1), "k", options.k.value_or(0), "above 0 and at most 1");
+  require(!options.k || (*options.k >= 0 && *options.k <= 1), "k", options.k.value_or(0), "0 to 1");
   const auto is_length = [](const std::optional<double>& v) { return !v || (*v > 0 && std::isfinite(*v)); };
   require(is_length(options.band), "band", options.band.value_or(0), "positive and finite");
   require(is_length(options.band_voxels), "band_voxels", options.band_voxels.value_or(0), "positive and finite");
@@ -147,11 +148,10 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
     trial = try_band(field, report.band_voxels, options, marks.unpadded, watch, 0, 1);
   }
 
-  report.inside_voxels = trial.statistics.inside;
-  if (options.cavities == Cavities::Fill && !report.wants_band_voxels) {
+  if (options.cavities == Cavities::Fill && !report.wants_band_voxels)
     report.cavity_voxels = fill_cavities(trial.inside, marks.sealed, watch);
-    report.inside_voxels += report.cavity_voxels;
-  }
+  for (const std::uint64_t word : trial.inside.words)
+    report.inside_voxels += static_cast<std::size_t>(std::popcount(word));
   report.soup_covered = covered_share(trial.inside, marks.touched);
   report.band = report.band_voxels * frame.voxel_size;
   report.k = field.d_max > 0 ? std::max(0.0, 1 - report.band / field.d_max) : 0;
