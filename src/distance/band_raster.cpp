@@ -33,9 +33,13 @@ Extent extent_of(const kernel::TrianglePlan& t) {
 IndexRange near_plane(const kernel::TrianglePlan& t, int y, int z, float band, IndexRange x) {
   const Vec3& n = t.normal;
   constexpr float kFlat = 0.02F;  // a steeper plane cuts less than a fiftieth off the row
-  if (std::abs(n.x) < kFlat) return x;
   const Vec3& a = t.corner[0];
   const float rest = (static_cast<float>(y) - a.y) * n.y + (static_cast<float>(z) - a.z) * n.z;
+  if (std::abs(n.x) < kFlat) {
+    const auto height = [&](int at) { return rest + n.x * (static_cast<float>(at) - a.x); };
+    const float lowest = std::min(height(x.begin), height(x.end)), highest = std::max(height(x.begin), height(x.end));
+    return lowest > band + 1 || highest < -band - 1 ? IndexRange{0, 0} : x;
+  }
   const float centre = a.x - rest / n.x, half = (band + 1) / std::abs(n.x);
   const auto limit = [&](float v) { return std::clamp(v, -1.0F, 1e9F); };
   return {std::max(x.begin, static_cast<int>(limit(centre - half))),
@@ -64,7 +68,7 @@ IndexRange within_ball(const Ball& ball, int y, int z, IndexRange x) {
 }
 
 void raster_triangle(const kernel::TrianglePlan& t, float band, IndexRange layers, Grid<float>& squares) {
-  constexpr int kLongRow = 24;  // voxels; shorter ones are not worth asking for the plane
+  constexpr int kLongRow = 12;  // voxels; shorter ones are not worth asking for the plane
   const Extent box = extent_of(t);
   const Ball ball = ball_around(box, band);
   const IndexRange xs = reach(box.lo.x, box.hi.x, band, squares.frame.size[0]);
@@ -97,14 +101,22 @@ std::vector<std::vector<std::uint32_t>> bin_by_slab(std::span<const kernel::Tria
 
 }  // namespace
 
-double raster_work(std::span<const kernel::TrianglePlan> triangles, float band_voxels) {
-  double work = 0;
+RasterWork estimate_work(std::span<const kernel::TrianglePlan> triangles, float band_voxels) {
+  RasterWork work;
   for (const kernel::TrianglePlan& t : triangles) {
     const Extent box = extent_of(t);
-    const double x = box.hi.x - box.lo.x + 2 * band_voxels, y = box.hi.y - box.lo.y + 2 * band_voxels,
-                 z = box.hi.z - box.lo.z + 2 * band_voxels;
-    const double steep = std::abs(t.normal.x), cut = steep > 0.02 ? 2 * (band_voxels + 1) / steep : x;
-    work += std::min(x, cut) * y * z;
+    const double x = box.hi.x - box.lo.x, y = box.hi.y - box.lo.y, z = box.hi.z - box.lo.z, reach_out = 2 * band_voxels;
+    const double nx = std::abs(t.normal.x), ny = std::abs(t.normal.y), nz = std::abs(t.normal.z);
+    const double whole = (x + reach_out) * (y + reach_out) * (z + reach_out);
+    double slab = whole;  // what is near the plane: its shadow along the steepest axis, as thick as the band is there
+    if (nx >= ny && nx >= nz && nx > 0)
+      slab = (y + reach_out) * (z + reach_out) * (reach_out + 2) / nx;
+    else if (ny >= nz && ny > 0)
+      slab = (x + reach_out) * (z + reach_out) * (reach_out + 2) / ny;
+    else if (nz > 0)
+      slab = (x + reach_out) * (y + reach_out) * (reach_out + 2) / nz;
+    work.looks += std::min(whole, slab);
+    work.box_voxels += x * y * z;
   }
   return work;
 }

@@ -18,8 +18,9 @@ constexpr std::int64_t kValuesPerTask = 1 << 16;
 /// Voxels; what every triangle lowers directly. Beyond, asking the tree once a voxel is cheaper than every triangle's
 /// cube.
 constexpr double kRasterBand = 4;
-/// Looks at a voxel, on average, beyond which the tree is asked for all of them: triangles that are large and many.
-constexpr double kMaxLooks = 200;
+/// Looks at a voxel, on average, beyond which the tree is asked for all of them: more triangles than voxels. Not if the
+/// triangles are so large that the tree's boxes overlap: it would look at most of them each time.
+constexpr double kMaxLooks = 200, kMaxOverlap = 4;
 
 /// The soup in voxel units: voxel centres are the whole numbers. Planned from double coordinates, so position and scale
 /// of the soup cost no precision here.
@@ -47,6 +48,17 @@ void squares_to_lengths(std::vector<float>& values, float band_squared, float vo
                  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
                    values[i] = to_length(values[i], band_squared, voxel_size);
                });
+}
+
+/// The largest value over the unpadded box; searched by the tree only if some voxel there is not known yet.
+float farthest_distance(const Grid<float>& distance, const TriangleTree& tree, StageWatch& watch) {
+  const GridFrame& frame = distance.frame;
+  float largest = 0;
+  for (int z = frame.pad; z < frame.size[2] - frame.pad && largest < kInfinity; ++z)
+    for (int y = frame.pad; y < frame.size[1] - frame.pad && largest < kInfinity; ++y)
+      for (int x = frame.pad; x < frame.size[0] - frame.pad; ++x) largest = std::max(largest, distance.at(x, y, z));
+  if (largest < kInfinity) return largest;
+  return std::sqrt(farthest_voxel_squared(tree, frame, watch)) * static_cast<float>(frame.voxel_size);
 }
 
 float squared_band(double band_voxels) {
@@ -119,15 +131,15 @@ DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& op
   const bool full = options.mode == DistanceMode::Full;
   const double band = full ? std::numeric_limits<double>::infinity() : options.band_voxels;
   double raster = std::min(band, kRasterBand);
-  const double work = raster_work(triangles, static_cast<float>(raster));
-  if (work > kMaxLooks * static_cast<double>(frame.voxel_count())) raster = 0;
+  const RasterWork work = estimate_work(triangles, static_cast<float>(raster));
+  const auto voxels = static_cast<double>(frame.voxel_count());
+  if (work.looks > kMaxLooks * voxels && work.box_voxels < kMaxOverlap * voxels) raster = 0;
   watch.enter_part(0.02, full ? 0.2 : 0.7);
   raster_band(triangles, static_cast<float>(raster), field.distance, watch);
   squares_to_lengths(field.distance.values, squared_band(raster), static_cast<float>(frame.voxel_size), watch);
 
   const TriangleTree tree(triangles, watch);
-  const float farthest = farthest_voxel_squared(tree, frame, watch);
-  field.d_max = static_cast<double>(std::sqrt(farthest) * static_cast<float>(frame.voxel_size));
+  field.d_max = static_cast<double>(farthest_distance(field.distance, tree, watch));
   watch.enter_part(full ? 0.2 : 0.7, 1);
   if (band > raster) fill_unknown(tree, raster, band, field.distance, watch);
   field.band = band * frame.voxel_size;
