@@ -109,8 +109,10 @@ class Filler {
   }
 
  private:
-  bool has_volume() const { return volume_.report.inside_voxels > 0 && volume_.report.soup_covered >= kLeastCovered &&
-           core_share(volume_.inside) >= kLeastCore; }
+  bool has_volume() const {
+    return volume_.report.inside_voxels > 0 && volume_.report.soup_covered >= kLeastCovered &&
+           core_share(volume_.inside) >= kLeastCore;
+  }
   Fill fill(double cell_size) {
     Fill dense;
     if (has_volume()) dense = try_density(cell_size);
