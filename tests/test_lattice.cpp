@@ -155,6 +155,12 @@ TEST(Lattice, the_default_is_about_two_thousand_tets) {
   }
 }
 
+TEST(Lattice, a_block_is_met_exactly_by_default) {
+  const LatticeReport r = fill(classify(test::make_box({0, 0, 0}, {1, 1, 1}), 64)).report;
+  EXPECT_EQ(r.cells, (std::array<int, 3>{7, 7, 7}));
+  EXPECT_NEAR(r.kept_volume, 1, 1e-5);
+}
+
 TEST(Lattice, cells_count_along_the_longest_axis) {
   const Stages s = classify(test::make_box({0, 0, 0}, {4, 2, 1}), 64);
   const LatticeReport r = fill(s, with_cells(8)).report;

@@ -188,14 +188,14 @@ TEST(MeshSoup, winding_order_and_threads_change_no_bit) {
   EXPECT_EQ(a.tets, b.tets);
 }
 
-/// The solid of 640 flat triangles itself overlaps the exact torus by 0.989 (docs/RESULTS.md), so 0.99 is out of reach.
+/// The solid of 640 flat triangles itself overlaps the exact torus by 0.989 when sampled finely (docs/RESULTS.md).
 TEST(Paper, the_inside_of_the_torus_is_the_exact_torus_as_far_as_its_triangles_are) {
   Pipeline pipeline(make_sample("torus"));
   pipeline.run_until(Stage::PseudoVolume, at_voxels(150));
   const auto in_torus = [](const Vec3d& p) {
     return std::hypot(std::hypot(p.x, p.y) - kTorusMajorRadius, p.z) < kTorusMinorRadius;
   };
-  EXPECT_GE(test::overlap(pipeline.pseudo_volume().inside, in_torus), 0.985);
+  EXPECT_GE(test::overlap(pipeline.pseudo_volume().inside, in_torus), 0.99);
 }
 
 TEST(Paper, the_torus_gives_meshes_of_about_139_and_8000_tets_with_its_volume) {

@@ -13,7 +13,7 @@
 namespace tetsoup {
 
 /// At most one of `cells` and `cell_size`; neither: an edge that gives about 2,000 tets,
-/// with a whole number of cells along the longest axis where that comes near enough.
+/// with a whole number of cells along the longest axis where that keeps the volume much better.
 struct LatticeOptions {
   std::optional<int> cells;         ///< Cubic cells along the longest axis of the soup's box, 1..1024.
   std::optional<double> cell_size;  ///< Edge of a cell.

@@ -18,6 +18,7 @@ constexpr double kLeastCovered = 0.25;  ///< A pseudo volume that covers less of
 constexpr double kLeastCore =
     0.02;  ///< Share of inside voxels within inside voxels; below, the volume is a mere sheet.
 constexpr double kWholeCells = 0.15;  ///< A whole number of cells is preferred while the count stays this near the aim.
+constexpr double kVolumeMiss = 0.03;  ///< Relative; a lattice that keeps the volume this well is left as it is.
 constexpr int kMaxFills = 8;          ///< Tries of the search.
 constexpr double kSmallestCellVoxels =
     0.75;  ///< The search makes no cells smaller: they would see no more of the shape.
@@ -129,17 +130,27 @@ class Filler {
     return fill;
   }
 
-  /// The same with the next whole number of cells along the longest axis, so that the lattice ends where the box does:
-  /// a block is then met exactly.
+  /// The same with the next whole number of cells along the longest axis, so that the lattice ends where the box does,
+  /// if that meets the volume much better: a block is then met exactly.
   Fill with_whole_cells(Fill fill) {
+    const double miss = volume_miss(fill);
+    if (miss < kVolumeMiss) return fill;
     const double longest = longest_edge(grid_box(grid_)), cells = longest / fill.frame.cell_size;
     for (const double whole : {std::round(cells), std::round(cells) > cells ? std::floor(cells) : std::ceil(cells)}) {
       if (whole < 1 || longest / whole < smallest_cell()) continue;
       Fill other = try_density(longest / whole);
-      const double miss = std::abs(static_cast<double>(other.kept.tet_count) / kDefaultTets - 1);
-      if (miss <= kWholeCells && holds_together(other.kept)) return other;
+      const double tets_missed = std::abs(static_cast<double>(other.kept.tet_count) / kDefaultTets - 1);
+      if (tets_missed <= kWholeCells && volume_miss(other) < miss / 2 && holds_together(other.kept)) return other;
     }
     return fill;
+  }
+
+  /// Relative difference between the volumes of the kept tets and of the inside voxels.
+  double volume_miss(const Fill& fill) const {
+    double cells = 0;  // the middle tet is a third of its cube, each corner a sixth
+    for (const KeptCell& k : fill.kept.cells)
+      cells += ((k.tets & 1U) != 0 ? 1.0 / 3 : 0) + std::popcount(k.tets & 0b11110U) / 6.0;
+    return std::abs(cells * std::pow(fill.frame.cell_size, 3) / volume_.report.volume - 1);
   }
 
   double smallest_cell() const { return std::max(kSmallestCellVoxels * grid_.voxel_size, finest_cell_size(grid_)); }
