@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "base/bits.h"
 #include "tetsoup/types.h"
@@ -45,11 +44,6 @@ struct VoteWord {
     for (std::size_t i = 0; i < kVoteBits; ++i) count |= static_cast<unsigned>(slice[i] >> bit & 1U) << i;
     return static_cast<std::uint8_t>(count);
   }
-};
-
-/// A word of counters for every word of a BitGrid of the same frame.
-struct VoteGrid {
-  std::vector<VoteWord> words;
 };
 
 }  // namespace tetsoup
