@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "base/require.h"
+
 namespace tetsoup {
 namespace {
 
@@ -91,6 +93,7 @@ float TriangleTree::nearest_squared(float x, float y, float z, float bound) cons
         Pending near{at.node + 1, squared_distance(nodes_[at.node + 1], x, y, z)};
         Pending far{node.next, squared_distance(nodes_[node.next], x, y, z)};
         if (far.square < near.square) std::swap(near, far);
+        TETSOUP_ASSERT(depth < stack.size());
         stack[depth++] = far;
         at = near;
         continue;

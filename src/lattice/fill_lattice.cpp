@@ -196,6 +196,7 @@ class Filler {
 
 /// Vertices in lattice order, tets by cell and then by number.
 TetMesh make_mesh(const Fill& fill) {
+  TETSOUP_ASSERT(!fill.kept.cells.empty());  // a finite triangle always touches a tet
   const LatticeFrame& frame = fill.frame;
   Cell lo = fill.kept.cells.front().cell;
   for (const KeptCell& k : fill.kept.cells)
