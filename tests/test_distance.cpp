@@ -101,9 +101,10 @@ TEST(Distance, band_and_full_agree_to_the_bit_where_both_are_known) {
   const TriangleSoup soup = make_mixed(7);
   const DistanceField band = make_field(soup, DistanceMode::Band, 48), full = make_field(soup, DistanceMode::Full, 48);
   EXPECT_EQ(band.d_max, full.d_max);
-  for (std::size_t i = 0; i < band.distance.values.size(); ++i) {
-    if (std::isinf(band.distance.values[i])) continue;
-    ASSERT_EQ(band.distance.values[i], full.distance.values[i]);
+  const std::vector<float> known = dense(band.distance).values, all = dense(full.distance).values;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (std::isinf(known[i])) continue;
+    ASSERT_EQ(known[i], all[i]);
   }
 }
 
@@ -113,7 +114,7 @@ TEST(Distance, a_widened_band_has_the_same_bits_as_a_wide_one) {
   DistanceField narrow = make_field(soup, DistanceMode::Band, 48, 3);
   widen_distance(narrow, clean, 8);
   const DistanceField wide = make_field(soup, DistanceMode::Band, 48, 8);
-  EXPECT_EQ(narrow.distance.values, wide.distance.values);
+  EXPECT_EQ(narrow.distance, wide.distance);
   EXPECT_EQ(narrow.band, wide.band);
   widen_distance(narrow, clean, 5);
   EXPECT_EQ(narrow.band, wide.band) << "a narrower wish takes nothing away";
@@ -128,7 +129,7 @@ TEST(Distance, a_cancelled_widening_leaves_the_field_as_it_was) {
   DistanceField field = before;
   const auto stop_late = [](std::string_view, double fraction) { return fraction < 0.5; };
   EXPECT_THROW(widen_distance(field, clean, 1e9, stop_late), Cancelled);
-  EXPECT_EQ(field.distance.values, before.distance.values);
+  EXPECT_EQ(field.distance, before.distance);
   EXPECT_EQ(field.band, before.band);
 }
 
@@ -162,8 +163,8 @@ TEST(Distance, position_and_scale_do_not_matter) {
   TriangleSoup scaled = soup;
   for (Vec3& v : scaled.vertices) v = {v.x * 0x1p-90F, v.y * 0x1p-90F, v.z * 0x1p-90F};
   const DistanceField a = make_field(soup, DistanceMode::Band, 40), b = make_field(scaled, DistanceMode::Band, 40);
-  for (std::size_t i = 0; i < a.distance.values.size(); ++i)
-    ASSERT_EQ(a.distance.values[i] * 0x1p-90F, b.distance.values[i]);
+  const std::vector<float> large = dense(a.distance).values, tiny = dense(b.distance).values;
+  for (std::size_t i = 0; i < large.size(); ++i) ASSERT_EQ(large[i] * 0x1p-90F, tiny[i]);
 }
 
 TEST(Distance, a_soup_too_small_for_single_precision_gets_coarser_voxels) {
@@ -217,7 +218,7 @@ TEST(Distance, same_bits_at_any_thread_count) {
   set_thread_count(5);
   const DistanceField many = make_field(soup, DistanceMode::Full, 40);
   set_thread_count(0);
-  EXPECT_EQ(one.distance.values, many.distance.values);
+  EXPECT_EQ(one.distance, many.distance);
   EXPECT_EQ(one.d_max, many.d_max);
 }
 

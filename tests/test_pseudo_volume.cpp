@@ -45,8 +45,8 @@ TEST(PseudoVolume, bits_of_the_fast_rays_are_those_of_the_obvious_ones) {
           options.placement = placement;
           const PseudoVolume fast = classify_volume(field, options);
           const auto obvious =
-              reference::count_votes(field.distance, static_cast<float>(band * field.distance.frame.voxel_size), rays,
-                                     placement == Placement::Entry);
+              reference::count_votes(dense(field.distance), static_cast<float>(band * field.distance.frame.voxel_size),
+                                     rays, placement == Placement::Entry);
           ASSERT_EQ(fast.votes.values, obvious.values) << voxels << ' ' << band << ' ' << rays;
         }
       }
@@ -89,7 +89,8 @@ TEST(PseudoVolume, k_of_one_is_parity_counting_on_the_closed_samples) {
     const DistanceField field = make_field(soup, 96, 4);
     const PseudoVolume events = classify_volume(field, options);
     EXPECT_TRUE(events.report.floored);
-    const auto agreement = test::compare_with_parity(soup, field.distance, static_cast<float>(events.report.band));
+    const auto agreement =
+        test::compare_with_parity(soup, dense(field.distance), static_cast<float>(events.report.band));
     EXPECT_GE(agreement.clear_rays, 0.99) << name;
     // The robot's parts overlap, so many of its rays graze: two sheets within one run of the band.
     if (std::string_view(name) != "robot") {

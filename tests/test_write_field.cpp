@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "base/block_grid.h"
 #include "tet_file_fixtures.h"
 #include "tetsoup/io.h"
 
@@ -25,7 +26,9 @@ Field ball_field(double band) {
   frame.size = {70, 7, 5};
   frame.origin = {-1.5, 0.1, 1e-3};
   frame.voxel_size = 0.25;
-  made.field.distance.frame = made.volume.votes.frame = made.volume.inside.frame = frame;
+  made.field.distance = make_block_grid(frame);
+  made.volume.votes.frame = made.volume.inside.frame = frame;
+  std::vector<float> slab(slab_values(made.field.distance, 0), std::numeric_limits<float>::infinity());
   made.field.band = band;
   made.field.d_max = 33;
   made.volume.inside.words_per_row = 2;
@@ -35,11 +38,12 @@ Field ball_field(double band) {
       for (int x = 0; x < 70; ++x) {
         const float r = std::hypot(static_cast<float>(x - 65), static_cast<float>(y - 3), static_cast<float>(z - 2));
         const float d = std::abs(r - 2);
-        made.field.distance.values.push_back(d < band ? d : std::numeric_limits<float>::infinity());
+        if (d < band) slab[static_cast<std::size_t>((z * 7 + y) * 128 + x)] = d;
         made.volume.votes.values.push_back(static_cast<std::uint8_t>(r < 2 ? 26 : x % 13));
         if (r < 2)
           made.volume.inside.words[made.volume.inside.row(y, z) + static_cast<std::size_t>(x / 64)] |= 1ULL << (x % 64);
       }
+  store_slab(made.field.distance, 0, slab);
   return made;
 }
 
@@ -71,8 +75,9 @@ TEST_F(WriteFieldTest, holds_all_four_arrays_with_the_values_given) {
   ASSERT_EQ(with_sign.size(), 4 * count);
   ASSERT_EQ(votes.size(), count);
   ASSERT_EQ(inside.size(), count);
+  const std::vector<float> given = dense(made.field.distance).values;
   for (std::size_t i = 0; i < count; ++i) {
-    const float d = made.field.distance.values[i];
+    const float d = given[i];
     const bool is_inside = made.volume.votes.values[i] == 26;
     ASSERT_EQ(float_at(distance, i), d);
     ASSERT_EQ(float_at(with_sign, i), is_inside ? -d : d);

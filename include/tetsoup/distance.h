@@ -25,8 +25,8 @@ struct DistanceOptions {
 };
 
 struct DistanceField {
-  /// Unsigned distance (nz, ny, nx), in the soup's unit; infinity where it is `band` or more.
-  Grid<float> distance;
+  /// Unsigned distance, in the soup's unit; infinity where it is `band` or more.
+  BlockGrid distance;
   double d_max = 0;  ///< Largest distance over the voxels of the unpadded box [Spillmann06 §3: c = 1 / d_max].
   double band = 0;   ///< Values below this are known; infinity if all are.
 };
@@ -47,6 +47,9 @@ GridFrame make_grid(const CleanSoup& soup, const DistanceOptions& options);
 /// triangles).
 DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& options = {},
                                 const Progress& progress = {});
+
+/// All values side by side: (nz, ny, nx), 4 bytes per voxel.
+Grid<float> dense(const BlockGrid& blocks);
 
 /// Widens the band of a field to `band_voxels` (infinity: everywhere); what is known is not computed again.
 /// Same bits as unsigned_distance() with that band. `soup` must be the one the field was made from.

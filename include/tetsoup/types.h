@@ -72,6 +72,32 @@ struct Grid {
   T at(int x, int y, int z) const { return values[index(x, y, z)]; }
 };
 
+/// Values of a grid of which most may be unknown, that is infinite: 64 voxels along x make a block, as they make a word
+/// of a BitGrid, and a block without a known value takes no memory.
+struct BlockGrid {
+  static constexpr int kBlock = 64;
+  static constexpr int kSlab = 8;  ///< Layers of z whose values are stored together.
+  struct Slab {
+    std::vector<std::uint32_t> places;  ///< (layers, ny, blocks_per_row): the block's place in `values`; 0: unknown.
+    std::vector<float> values;          ///< 64 a block, in the order of `places`; the first block is all infinity.
+    bool operator==(const Slab&) const = default;
+  };
+
+  GridFrame frame;
+  std::size_t blocks_per_row = 0;
+  std::vector<Slab> slabs;  ///< Layers 0 to 7, 8 to 15, ...
+
+  /// The 64 values of block `b` of a row; those beyond the row's end are infinite.
+  const float* block(std::size_t b, int y, int z) const {
+    const Slab& slab = slabs[static_cast<std::size_t>(z / kSlab)];
+    const std::size_t row =
+        static_cast<std::size_t>(z % kSlab) * static_cast<std::size_t>(frame.size[1]) + static_cast<std::size_t>(y);
+    return slab.values.data() + std::size_t{kBlock} * slab.places[row * blocks_per_row + b];
+  }
+  float at(int x, int y, int z) const { return block(static_cast<std::size_t>(x / kBlock), y, z)[x % kBlock]; }
+  bool operator==(const BlockGrid&) const = default;
+};
+
 /// One bit a voxel: 64 voxels along x in a word, every row of voxels starts a new word, unused bits are zero.
 struct BitGrid {
   GridFrame frame;

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "base/bits.h"
+#include "base/block_grid.h"
 #include "base/parallel.h"
 #include "base/require.h"
 #include "distance/band_raster.h"
@@ -119,15 +120,31 @@ void fill_unknown(const TriangleTree& tree, double known_voxels, double band_vox
 
 }  // namespace
 
+// TEMP
+BlockGrid in_blocks(const Grid<float>& dense) {
+  BlockGrid grid = make_block_grid(dense.frame);
+  const auto nx = static_cast<std::size_t>(dense.frame.size[0]), ny = static_cast<std::size_t>(dense.frame.size[1]);
+  const std::size_t padded = grid.blocks_per_row * BlockGrid::kBlock;
+  std::vector<float> slab;
+  for (std::size_t i = 0; i < grid.slabs.size(); ++i) {
+    slab.assign(slab_values(grid, i), kInfinity);
+    for (std::size_t row = 0; row < slab.size() / padded; ++row)
+      std::copy_n(dense.values.begin() + static_cast<std::ptrdiff_t>((i * BlockGrid::kSlab * ny + row) * nx), nx,
+                  slab.begin() + static_cast<std::ptrdiff_t>(row * padded));
+    store_slab(grid, i, slab);
+  }
+  return grid;
+}
+
 DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& options, const Progress& progress) {
   DistanceField field;
-  field.distance.frame = make_grid(soup, options);
-  const GridFrame& frame = field.distance.frame;
+  Grid<float> distance{make_grid(soup, options), {}};
+  const GridFrame& frame = distance.frame;
   StageWatch watch(progress, "distance");
   watch.enter_part(0, 0.02);
   const std::vector<TrianglePlan> triangles = plan_triangles(soup, frame, watch);
 
-  field.distance.values.resize(frame.voxel_count());
+  distance.values.resize(frame.voxel_count());
   const bool full = options.mode == DistanceMode::Full;
   const double band = full ? std::numeric_limits<double>::infinity() : options.band_voxels;
   double raster = std::min(band, kRasterBand);
@@ -135,14 +152,15 @@ DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& op
   const auto voxels = static_cast<double>(frame.voxel_count());
   if (work.looks > kMaxLooks * voxels && work.box_voxels < kMaxOverlap * voxels) raster = 0;
   watch.enter_part(0.02, full ? 0.2 : 0.7);
-  raster_band(triangles, static_cast<float>(raster), field.distance, watch);
-  squares_to_lengths(field.distance.values, squared_band(raster), static_cast<float>(frame.voxel_size), watch);
+  raster_band(triangles, static_cast<float>(raster), distance, watch);
+  squares_to_lengths(distance.values, squared_band(raster), static_cast<float>(frame.voxel_size), watch);
 
   const TriangleTree tree(triangles, watch);
-  field.d_max = static_cast<double>(farthest_distance(field.distance, tree, watch));
+  field.d_max = static_cast<double>(farthest_distance(distance, tree, watch));
   watch.enter_part(full ? 0.2 : 0.7, 1);
-  if (band > raster) fill_unknown(tree, raster, band, field.distance, watch);
+  if (band > raster) fill_unknown(tree, raster, band, distance, watch);
   field.band = band * frame.voxel_size;
+  field.distance = in_blocks(distance);
   return field;
 }
 
@@ -150,18 +168,13 @@ void widen_distance(DistanceField& field, const CleanSoup& soup, double band_vox
   const GridFrame& frame = field.distance.frame;
   if (band_voxels * frame.voxel_size <= field.band) return;
   StageWatch watch(progress, "distance");
-  try {
-    watch.enter_part(0, 0.05);
-    const TriangleTree tree(plan_triangles(soup, frame, watch), watch);
-    watch.enter_part(0.05, 1);
-    fill_unknown(tree, field.band / frame.voxel_size, band_voxels, field.distance, watch);
-  } catch (...) {
-    const auto known = static_cast<float>(field.band);
-    for (float& d : field.distance.values)
-      if (!(d < known)) d = kInfinity;
-    throw;
-  }
-  field.band = band_voxels * frame.voxel_size;
+  Grid<float> distance = dense(field.distance);
+  watch.enter_part(0, 0.05);
+  const TriangleTree tree(plan_triangles(soup, frame, watch), watch);
+  watch.enter_part(0.05, 1);
+  fill_unknown(tree, field.band / frame.voxel_size, band_voxels, distance, watch);
+  field.distance = in_blocks(distance);
+  field.band = band_voxels * field.distance.frame.voxel_size;
 }
 
 }  // namespace tetsoup

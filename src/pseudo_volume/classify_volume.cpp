@@ -62,11 +62,12 @@ bool is_useful(const DistanceField& field, double band_voxels) {
   return band_voxels == kCandidates.front() || band_voxels * field.distance.frame.voxel_size < field.d_max;
 }
 
-Trial try_band(const DistanceField& field, double band_voxels, const PseudoVolumeOptions& options,
-               const BitGrid& unpadded, StageWatch& watch, double begin, double end) {
+Trial try_band(const DistanceField& field, const Grid<float>& distance, double band_voxels,
+               const PseudoVolumeOptions& options, const BitGrid& unpadded, StageWatch& watch, double begin,
+               double end) {
   Trial trial;
   const auto band = static_cast<float>(band_voxels * field.distance.frame.voxel_size);
-  cast_rays(field.distance, band, options.rays, options.placement, trial.votes, watch, begin, end);
+  cast_rays(distance, band, options.rays, options.placement, trial.votes, watch, begin, end);
   trial.inside = majority(field.distance.frame, trial.votes, options.rays);
   trial.statistics = summarize_votes(trial.inside, unpadded, trial.votes, options.rays);
   return trial;
@@ -74,8 +75,8 @@ Trial try_band(const DistanceField& field, double band_voxels, const PseudoVolum
 
 /// Tries the candidates from narrow to wide and keeps the first of the best. The rule never looks at how far the field
 /// is known: where that is not far enough to decide, the report asks for more.
-void choose_band(const DistanceField& field, const PseudoVolumeOptions& options, const SoupMarks& marks,
-                 StageWatch& watch, PseudoVolumeReport& report, Trial& best) {
+void choose_band(const DistanceField& field, const Grid<float>& distance, const PseudoVolumeOptions& options,
+                 const SoupMarks& marks, StageWatch& watch, PseudoVolumeReport& report, Trial& best) {
   double best_score = -1;
   std::size_t worse = 0;
   for (const double band : kCandidates) {
@@ -86,7 +87,7 @@ void choose_band(const DistanceField& field, const PseudoVolumeOptions& options,
     }
     const double tried = static_cast<double>(report.candidates.size());
     const auto part = [&](double n) { return n / static_cast<double>(kCandidates.size()); };
-    Trial trial = try_band(field, band, options, marks.unpadded, watch, part(tried), part(tried + 1));
+    Trial trial = try_band(field, distance, band, options, marks.unpadded, watch, part(tried), part(tried + 1));
     const double score = score_votes(trial.inside, marks, trial.statistics);
     report.candidates.push_back({band, score, trial.statistics.consensus});
     ++worse;
@@ -129,7 +130,8 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   check_options(options);
   const GridFrame& frame = field.distance.frame;
   StageWatch watch(progress, "pseudo_volume");
-  const SoupMarks marks = mark_soup(field.distance, watch);
+  const Grid<float> distance = dense(field.distance);
+  const SoupMarks marks = mark_soup(distance, watch);
 
   PseudoVolume result;
   result.rays = options.rays;
@@ -137,7 +139,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   Trial trial;
   if (is_automatic(options)) {
     report.automatic = true;
-    choose_band(field, options, marks, watch, report, trial);
+    choose_band(field, distance, options, marks, watch, report, trial);
   } else {
     const double asked = asked_band_voxels(field, options);
     report.floored = asked < kFloorVoxels;
@@ -145,7 +147,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
     if (!is_served(field, report.band_voxels))
       throw InvalidInput(
           "the distance field's band is too narrow for this k: widen_distance() to band_needed_voxels()");
-    trial = try_band(field, report.band_voxels, options, marks.unpadded, watch, 0, 1);
+    trial = try_band(field, distance, report.band_voxels, options, marks.unpadded, watch, 0, 1);
   }
 
   if (options.cavities == Cavities::Fill && !report.wants_band_voxels)
