@@ -43,16 +43,16 @@ GridFrame make_grid(const CleanSoup& soup, const DistanceOptions& options);
 ///
 /// Exact: the error is float rounding, below 1e-3 voxels against a double-precision brute force (tested).
 /// @throws InvalidInput  as make_grid; Cancelled if `progress` says so.
-/// Cost: 4 bytes per voxel. Band: O(voxels + triangles x voxels within the band of each); Full: O(voxels x log
-/// triangles).
+/// Cost: Band: O(triangles + voxels in the band) time and memory, 1/16 byte for any other voxel; Full: 4 bytes per
+/// voxel, O(voxels x log triangles) time.
 DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& options = {},
                                 const Progress& progress = {});
 
 /// All values side by side: (nz, ny, nx), 4 bytes per voxel.
 Grid<float> dense(const BlockGrid& blocks);
 
-/// Widens the band of a field to `band_voxels` (infinity: everywhere); what is known is not computed again.
-/// Same bits as unsigned_distance() with that band. `soup` must be the one the field was made from.
+/// Widens the band of a field to `band_voxels` (infinity: everywhere). Same bits as unsigned_distance() with that band.
+/// `soup` must be the one the field was made from.
 /// @throws Cancelled  if `progress` says so; the field is then unchanged.
 void widen_distance(DistanceField& field, const CleanSoup& soup, double band_voxels, const Progress& progress = {});
 

@@ -1,15 +1,16 @@
 #include "distance/triangle_tree.h"
 
-#include <numeric>
+#include <bit>
+#include <cmath>
+#include <limits>
 
 #include "base/require.h"
 
 namespace tetsoup {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 4;
-constexpr std::uint32_t kStepNodes = 1024;  ///< Nodes between two looks at the progress callback.
-constexpr int kMaxDepth = 64;               ///< Median splits of 2^32 triangles are 32 deep.
+constexpr std::size_t kLeafSize = 2;
+constexpr int kMaxDepth = 64;
 /// A box is skipped only if it is farther than the best by more than rounding, so that no exact nearest is lost.
 constexpr float kSlack = 1.0F + 0x1p-14F;
 constexpr float kSlackAbsolute = 1e-6F;  // voxels squared
@@ -21,53 +22,71 @@ Vec3 upper(const Vec3& a, const Vec3& b) {
   return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
-float coordinate(const Vec3& v, int axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+/// Bits of a 12-bit number, two zeros between any two.
+std::uint64_t spread(std::uint64_t v) {
+  v = (v | v << 32) & 0x001F00000000FFFFU;
+  v = (v | v << 16) & 0x001F0000FF0000FFU;
+  v = (v | v << 8) & 0x100F00F00F00F00FU;
+  v = (v | v << 4) & 0x10C30C30C30C30C3U;
+  return (v | v << 2) & 0x1249249249249249U;
+}
+
+/// The triangles sorted along a Morton curve through their centres, at an eighth of a voxel.
+std::vector<std::uint32_t> morton_order(const SoupFeatures& features) {
+  struct Entry {
+    std::uint64_t code;
+    std::uint32_t triangle;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(features.triangles.size());
+  for (std::uint32_t i = 0; i < features.triangles.size(); ++i) {
+    const auto [a, b, c] = features.triangles[i];
+    const auto along = [&](auto coordinate) {
+      const float centre = (coordinate(a) + coordinate(b) + coordinate(c)) * (8.0F / 3);
+      return spread(static_cast<std::uint64_t>(std::clamp(centre, 0.0F, 65535.0F)));
+    };
+    const std::uint64_t x = along([&](std::uint32_t v) { return features.corners[v].x; });
+    const std::uint64_t y = along([&](std::uint32_t v) { return features.corners[v].y; });
+    const std::uint64_t z = along([&](std::uint32_t v) { return features.corners[v].z; });
+    entries.push_back({x | y << 1 | z << 2, i});
+  }
+  parallel_sort(entries.begin(), entries.end(), [](const Entry& l, const Entry& r) {
+    return l.code != r.code ? l.code < r.code : l.triangle < r.triangle;
+  });
+  std::vector<std::uint32_t> order;
+  order.reserve(entries.size());
+  for (const Entry& e : entries) order.push_back(e.triangle);
+  return order;
 }
 
 }  // namespace
 
-TriangleTree::TriangleTree(std::span<const kernel::TrianglePlan> triangles, StageWatch& watch)
-    : order_(triangles.size()) {
-  std::iota(order_.begin(), order_.end(), 0U);
-  nodes_.reserve(triangles.size());
-  build(triangles, 0, static_cast<std::uint32_t>(triangles.size()), watch);
-  triangles_.reserve(triangles.size());
-  for (const std::uint32_t i : order_) triangles_.push_back(triangles[i]);
-  order_ = {};
-}
-
-std::uint32_t TriangleTree::build(std::span<const kernel::TrianglePlan> triangles, std::uint32_t begin,
-                                  std::uint32_t end, StageWatch& watch) {
-  Node node{triangles[order_[begin]].corner[0], triangles[order_[begin]].corner[0], begin, end - begin};
-  for (std::uint32_t i = begin; i < end; ++i) {
-    for (const Vec3& v : triangles[order_[i]].corner) {
-      node.lo = lower(node.lo, v);
-      node.hi = upper(node.hi, v);
+TriangleTree::TriangleTree(const SoupFeatures& features, StageWatch& watch)
+    : order_(morton_order(features)), features_(features) {
+  watch.step(0);
+  const std::size_t leaves = (order_.size() + kLeafSize - 1) / kLeafSize;
+  first_leaf_ = std::bit_ceil(leaves) - 1;
+  nodes_.resize(first_leaf_ + leaves);
+  constexpr float kFar = std::numeric_limits<float>::max();
+  constexpr Node kNothing{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  parallel_for(static_cast<std::int64_t>(leaves), 512, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto leaf = static_cast<std::size_t>(begin); leaf < static_cast<std::size_t>(end); ++leaf) {
+      Node node = kNothing;
+      for (std::size_t i = leaf * kLeafSize; i < std::min(order_.size(), (leaf + 1) * kLeafSize); ++i) {
+        for (const std::uint32_t corner : features.triangles[order_[i]]) {
+          node.lo = lower(node.lo, features.corners[corner]);
+          node.hi = upper(node.hi, features.corners[corner]);
+        }
+      }
+      nodes_[first_leaf_ + leaf] = node;
     }
+  });
+  for (std::size_t i = first_leaf_; i-- > 0;) {
+    nodes_[i] = kNothing;
+    for (std::size_t child = 2 * i + 1; child < std::min(nodes_.size(), 2 * i + 3);
+         ++child)  // the last level ends early
+      nodes_[i] = {lower(nodes_[i].lo, nodes_[child].lo), upper(nodes_[i].hi, nodes_[child].hi)};
   }
-  const auto self = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back(node);
-  if (end - begin <= kLeafSize) return self;
-  if (self % kStepNodes == 0) watch.step(0);
-
-  const Vec3 size{node.hi.x - node.lo.x, node.hi.y - node.lo.y, node.hi.z - node.lo.z};
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto centre = [&](std::uint32_t i) {
-    const auto& c = triangles[i].corner;
-    return coordinate(c[0], axis) + coordinate(c[1], axis) + coordinate(c[2], axis);
-  };
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const float ca = centre(a), cb = centre(b);
-                     return ca != cb ? ca < cb : a < b;
-                   });
-  build(triangles, begin, middle, watch);
-  const std::uint32_t second = build(triangles, middle, end, watch);
-  nodes_[self].next = second;
-  nodes_[self].count = 0;
-  return self;
 }
 
 float TriangleTree::squared_distance(const Node& node, float x, float y, float z) {
@@ -77,29 +96,48 @@ float TriangleTree::squared_distance(const Node& node, float x, float y, float z
   return dx * dx + dy * dy + dz * dz;
 }
 
+float TriangleTree::squared_distance(std::size_t triangle, float x, float y, float z) const {
+  const auto [a, b, c] = features_.triangles[triangle];
+  const Vec3 &p = features_.corners[a], &q = features_.corners[b], &r = features_.corners[c];
+  return kernel::squared_distance({{p, q, r},
+                                   {kernel::plan_edge(p, q), kernel::plan_edge(q, r), kernel::plan_edge(p, r)},
+                                   features_.faces[triangle]},
+                                  x, y, z);
+}
+
 float TriangleTree::nearest_squared(float x, float y, float z, float bound) const {
   struct Pending {
-    std::uint32_t node;
+    std::size_t node;
     float square;
   };
   std::array<Pending, kMaxDepth> stack;
   std::size_t depth = 0;
   float best = bound;
-  Pending at{0, squared_distance(nodes_[0], x, y, z)};
+  const auto look = [&](std::size_t node) { return Pending{node, squared_distance(nodes_[node], x, y, z)}; };
+  Pending at = look(0);
   for (;;) {
     if (at.square <= best * kSlack + kSlackAbsolute) {
-      const Node& node = nodes_[at.node];
-      if (node.count == 0) {
-        Pending near{at.node + 1, squared_distance(nodes_[at.node + 1], x, y, z)};
-        Pending far{node.next, squared_distance(nodes_[node.next], x, y, z)};
+      const std::size_t left = 2 * at.node + 1;
+      if (left + 1 < nodes_.size()) {
+        Pending near = look(left), far = look(left + 1);
         if (far.square < near.square) std::swap(near, far);
         TETSOUP_ASSERT(depth < stack.size());
         stack[depth++] = far;
         at = near;
         continue;
       }
-      for (std::uint32_t i = node.next; i < node.next + node.count; ++i)
-        best = std::min(best, kernel::squared_distance(triangles_[i], x, y, z));
+      if (left < nodes_.size()) {
+        at = look(left);
+        continue;
+      }
+      if (at.node < first_leaf_) {  // a box of nothing
+        if (depth == 0) return best;
+        at = stack[--depth];
+        continue;
+      }
+      const std::size_t begin = (at.node - first_leaf_) * kLeafSize;
+      for (std::size_t i = begin; i < std::min(order_.size(), begin + kLeafSize); ++i)
+        best = std::min(best, squared_distance(order_[i], x, y, z));
     }
     if (depth == 0) return best;
     at = stack[--depth];

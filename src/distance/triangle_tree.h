@@ -2,17 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "base/parallel.h"
-#include "kernel/triangle_distance.h"
+#include "distance/soup_features.h"
 
 namespace tetsoup {
 
+/// A complete binary tree over the triangles in Morton order: node i has the children 2 i + 1 and 2 i + 2.
 class TriangleTree {
  public:
-  TriangleTree(std::span<const kernel::TrianglePlan> triangles, StageWatch& watch);
+  /// Keeps a reference to the features.
+  TriangleTree(const SoupFeatures& features, StageWatch& watch);
 
   /// Squared distance to the nearest triangle if that is below `bound`, else some value not below `bound`.
   /// The same bits as the least of kernel::squared_distance over all triangles.
@@ -21,16 +22,15 @@ class TriangleTree {
  private:
   struct Node {
     Vec3 lo, hi;
-    std::uint32_t next = 0;   ///< Inner: the second child (the first follows its parent). Leaf: first triangle.
-    std::uint32_t count = 0;  ///< Triangles of a leaf; 0 for an inner node.
   };
-  std::uint32_t build(std::span<const kernel::TrianglePlan> triangles, std::uint32_t begin, std::uint32_t end,
-                      StageWatch& watch);
   static float squared_distance(const Node& node, float x, float y, float z);
 
+  float squared_distance(std::size_t triangle, float x, float y, float z) const;
+
+  std::size_t first_leaf_ = 0;
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;
-  std::vector<kernel::TrianglePlan> triangles_;  ///< In the order of the leaves.
+  std::vector<std::uint32_t> order_;  ///< The triangles of the leaves.
+  const SoupFeatures& features_;
 };
 
 }  // namespace tetsoup

@@ -1,70 +1,96 @@
-// Distance from points to one triangle, in voxel units.
+// Distance from a point to a triangle's corners, edges and face, in voxel units.
+//
+// A corner's and an edge's distance depend on their own vertices only, so all triangles that share them agree to the
+// bit, and the least over a soup's triangles is the least over its distinct vertices, edges and faces.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 #include "base/vec.h"
 
 namespace tetsoup::kernel {
 
-/// What the distance to a triangle needs, computed once in double precision. Degenerate triangles are their segment or
-/// point: the face never wins there.
-struct TrianglePlan {
-  std::array<Vec3, 3> corner;
-  std::array<Vec3, 3> edge;                  ///< From corner i to corner i + 1.
-  std::array<float, 3> inverse_edge_square;  ///< 0 for an edge without length.
-  std::array<Vec3, 3> inward;                ///< Unit normal of edge i in the triangle's plane, towards the inside.
-  Vec3 normal;                               ///< Unit; zero for a triangle without area.
-  float face_bias = 0;                       ///< 0; larger than any square for a triangle without area.
+inline constexpr float kBeyond = 1e30F;  ///< Voxels squared; more than any true square.
+
+/// Planned from the lower vertex to the higher one.
+struct EdgePlan {
+  Vec3 from, along;
+  float inverse_square = 0;  ///< 0 for an edge without length, which its corners answer for.
 };
 
-inline TrianglePlan plan_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  constexpr float kNever = 1e30F;  // voxels squared
-  TrianglePlan plan;
-  plan.corner = {a, b, c};
-  const std::array<Vec3d, 3> p{to_double(a), to_double(b), to_double(c)};
-  const Vec3d n = cross(p[1] - p[0], p[2] - p[0]);
-  const double n_length = length(n);
-  const bool has_area = n_length > 0;
-  const Vec3d unit = has_area ? n * (1 / n_length) : Vec3d{};
-  plan.normal = to_float(unit);
-  plan.face_bias = has_area ? 0 : kNever;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3d e = p[(i + 1) % 3] - p[i];
-    const double square = squared_length(e);
-    plan.edge[i] = to_float(e);
-    plan.inverse_edge_square[i] = square > 0 ? static_cast<float>(1 / square) : 0;
-    plan.inward[i] = has_area ? to_float(cross(unit, e) * (1 / std::sqrt(square))) : Vec3{};
-  }
-  return plan;
+/// The inside of a triangle, planned in double precision; a triangle without area has none.
+struct FacePlan {
+  std::array<Vec3, 3> base;    ///< A point of each edge.
+  std::array<Vec3, 3> inward;  ///< Unit normal of each edge in the triangle's plane, towards the inside.
+  Vec3 normal;                 ///< Unit.
+  bool has_area = false;
+};
+
+struct TrianglePlan {
+  std::array<Vec3, 3> corner;
+  std::array<EdgePlan, 3> edge;
+  FacePlan face;
+};
+
+inline EdgePlan plan_edge(const Vec3& from, const Vec3& to) {
+  const Vec3 along{to.x - from.x, to.y - from.y, to.z - from.z};
+  const float square = along.x * along.x + along.y * along.y + along.z * along.z;
+  return {from, along, square > 0 ? 1 / square : 0};
 }
 
-/// Squared distance from (x, y, z) to the triangle: the least over its three edges and, above its inside, its plane.
-inline float squared_distance(const TrianglePlan& t, float x, float y, float z) {
-  float best = 1e30F;
-  float inside = 1e30F;
+/// Edges run from a to b, b to c and a to c.
+inline FacePlan plan_face(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const std::array<Vec3d, 3> along{to_double(b) - to_double(a), to_double(c) - to_double(b),
+                                   to_double(c) - to_double(a)};
+  const Vec3d n = cross(along[0], along[2]);
+  const double n_length = length(n);
+  if (!(n_length > 0)) return {};
+  const Vec3d unit = n * (1 / n_length);
+  const auto inward = [&](std::size_t i, double turn) {
+    return to_float(cross(unit, along[i]) * (turn / length(along[i])));
+  };
+  return {{a, b, a}, {inward(0, 1), inward(1, 1), inward(2, -1)}, to_float(unit), true};
+}
+
+inline TrianglePlan plan_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return {{a, b, c}, {plan_edge(a, b), plan_edge(b, c), plan_edge(a, c)}, plan_face(a, b, c)};
+}
+
+inline float corner_square(const Vec3& corner, float x, float y, float z) {
+  const float dx = x - corner.x, dy = y - corner.y, dz = z - corner.z;
+  return dx * dx + dy * dy + dz * dz;
+}
+
+/// Squared distance to the edge where the nearest point lies between its ends, else kBeyond.
+inline float edge_square(const EdgePlan& e, float x, float y, float z) {
+  const float px = x - e.from.x, py = y - e.from.y, pz = z - e.from.z;
+  const float s = (px * e.along.x + py * e.along.y + pz * e.along.z) * e.inverse_square;
+  const float dx = px - s * e.along.x, dy = py - s * e.along.y, dz = pz - s * e.along.z;
+  const float square = dx * dx + dy * dy + dz * dz;
+  return (s > 0) & (s < 1) ? square : kBeyond;
+}
+
+/// Squared distance to the plane where the nearest point lies within the triangle, else kBeyond.
+inline float face_square(const FacePlan& f, float x, float y, float z) {
+  float inside = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const float px = x - t.corner[i].x, py = y - t.corner[i].y, pz = z - t.corner[i].z;
-    const Vec3& e = t.edge[i];
-    float s = (px * e.x + py * e.y + pz * e.z) * t.inverse_edge_square[i];
-    s = s < 0 ? 0 : s;
-    s = s > 1 ? 1 : s;
-    const float dx = px - s * e.x, dy = py - s * e.y, dz = pz - s * e.z;
-    const float square = dx * dx + dy * dy + dz * dz;
-    best = square < best ? square : best;
-    const float side = px * t.inward[i].x + py * t.inward[i].y + pz * t.inward[i].z;
+    const float side =
+        (x - f.base[i].x) * f.inward[i].x + (y - f.base[i].y) * f.inward[i].y + (z - f.base[i].z) * f.inward[i].z;
     inside = side < inside ? side : inside;
   }
-  const float height =
-      (x - t.corner[0].x) * t.normal.x + (y - t.corner[0].y) * t.normal.y + (z - t.corner[0].z) * t.normal.z;
-  const float face = height * height + t.face_bias;
-  const float candidate = inside >= 0 ? face : best;
-  return candidate < best ? candidate : best;
+  const float height = (x - f.base[0].x) * f.normal.x + (y - f.base[0].y) * f.normal.y + (z - f.base[0].z) * f.normal.z;
+  return inside < 0 ? kBeyond : height * height;
 }
 
-/// row[i] = min(row[i], squared distance from (x0 + i, y, z)).
-void lower_row(const TrianglePlan& t, int x0, int y, int z, std::span<float> row);
+/// Squared distance from (x, y, z) to the triangle.
+inline float squared_distance(const TrianglePlan& t, float x, float y, float z) {
+  float best = t.face.has_area ? face_square(t.face, x, y, z) : kBeyond;
+  for (std::size_t i = 0; i < 3; ++i) {
+    best = std::min(best, corner_square(t.corner[i], x, y, z));
+    best = std::min(best, edge_square(t.edge[i], x, y, z));
+  }
+  return best;
+}
 
 }  // namespace tetsoup::kernel
