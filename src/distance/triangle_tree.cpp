@@ -9,8 +9,8 @@
 namespace tetsoup {
 namespace {
 
-constexpr std::size_t kLeafSize = 2;
-constexpr int kMaxDepth = 64;
+constexpr std::uint32_t kLeafSize = 2;
+constexpr int kMaxDepth = 96;  ///< 48 bits of the code, then halves of what shares a code.
 /// A box is skipped only if it is farther than the best by more than rounding, so that no exact nearest is lost.
 constexpr float kSlack = 1.0F + 0x1p-14F;
 constexpr float kSlackAbsolute = 1e-6F;  // voxels squared
@@ -31,62 +31,62 @@ std::uint64_t spread(std::uint64_t v) {
   return (v | v << 2) & 0x1249249249249249U;
 }
 
-/// The triangles sorted along a Morton curve through their centres, at an eighth of a voxel.
-std::vector<std::uint32_t> morton_order(const SoupFeatures& features) {
-  struct Entry {
-    std::uint64_t code;
-    std::uint32_t triangle;
+/// Place of a triangle's centre on a Morton curve, at an eighth of a voxel.
+std::uint64_t morton_code(const SoupFeatures& features, const Triangle& triangle) {
+  const auto along = [&](auto coordinate) {
+    const float centre = coordinate(triangle[0]) + coordinate(triangle[1]) + coordinate(triangle[2]);
+    return spread(static_cast<std::uint64_t>(std::clamp(centre * (8.0F / 3), 0.0F, 65535.0F)));
   };
-  std::vector<Entry> entries;
-  entries.reserve(features.triangles.size());
-  for (std::uint32_t i = 0; i < features.triangles.size(); ++i) {
-    const auto [a, b, c] = features.triangles[i];
-    const auto along = [&](auto coordinate) {
-      const float centre = (coordinate(a) + coordinate(b) + coordinate(c)) * (8.0F / 3);
-      return spread(static_cast<std::uint64_t>(std::clamp(centre, 0.0F, 65535.0F)));
-    };
-    const std::uint64_t x = along([&](std::uint32_t v) { return features.corners[v].x; });
-    const std::uint64_t y = along([&](std::uint32_t v) { return features.corners[v].y; });
-    const std::uint64_t z = along([&](std::uint32_t v) { return features.corners[v].z; });
-    entries.push_back({x | y << 1 | z << 2, i});
-  }
-  parallel_sort(entries.begin(), entries.end(), [](const Entry& l, const Entry& r) {
-    return l.code != r.code ? l.code < r.code : l.triangle < r.triangle;
-  });
-  std::vector<std::uint32_t> order;
-  order.reserve(entries.size());
-  for (const Entry& e : entries) order.push_back(e.triangle);
-  return order;
+  return along([&](std::uint32_t v) { return features.corners[v].x; }) |
+         along([&](std::uint32_t v) { return features.corners[v].y; }) << 1 |
+         along([&](std::uint32_t v) { return features.corners[v].z; }) << 2;
 }
 
 }  // namespace
 
-TriangleTree::TriangleTree(const SoupFeatures& features, StageWatch& watch)
-    : order_(morton_order(features)), features_(features) {
-  watch.step(0);
-  const std::size_t leaves = (order_.size() + kLeafSize - 1) / kLeafSize;
-  first_leaf_ = std::bit_ceil(leaves) - 1;
-  nodes_.resize(first_leaf_ + leaves);
-  constexpr float kFar = std::numeric_limits<float>::max();
-  constexpr Node kNothing{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  parallel_for(static_cast<std::int64_t>(leaves), 512, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto leaf = static_cast<std::size_t>(begin); leaf < static_cast<std::size_t>(end); ++leaf) {
-      Node node = kNothing;
-      for (std::size_t i = leaf * kLeafSize; i < std::min(order_.size(), (leaf + 1) * kLeafSize); ++i) {
-        for (const std::uint32_t corner : features.triangles[order_[i]]) {
-          node.lo = lower(node.lo, features.corners[corner]);
-          node.hi = upper(node.hi, features.corners[corner]);
-        }
-      }
-      nodes_[first_leaf_ + leaf] = node;
-    }
+TriangleTree::TriangleTree(const SoupFeatures& features, StageWatch& watch) : features_(features) {
+  const std::size_t count = features.triangles.size();
+  std::vector<MortonTriangle> sorted(count);
+  parallel_for(static_cast<std::int64_t>(count), 8192, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      sorted[i] = {morton_code(features, features.triangles[i]), static_cast<std::uint32_t>(i)};
   });
-  for (std::size_t i = first_leaf_; i-- > 0;) {
-    nodes_[i] = kNothing;
-    for (std::size_t child = 2 * i + 1; child < std::min(nodes_.size(), 2 * i + 3);
-         ++child)  // the last level ends early
-      nodes_[i] = {lower(nodes_[i].lo, nodes_[child].lo), upper(nodes_[i].hi, nodes_[child].hi)};
+  parallel_sort(sorted.begin(), sorted.end(), [](const MortonTriangle& l, const MortonTriangle& r) {
+    return l.code != r.code ? l.code < r.code : l.triangle < r.triangle;
+  });
+  watch.step(0);
+  order_.reserve(count);
+  for (const MortonTriangle& m : sorted) order_.push_back(m.triangle);
+  nodes_.reserve(count);
+  build(sorted, 0, static_cast<std::uint32_t>(count));
+  watch.step(0);
+}
+
+std::uint32_t TriangleTree::build(const std::vector<MortonTriangle>& sorted, std::uint32_t begin, std::uint32_t end) {
+  const auto self = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({features_.corners[features_.triangles[order_[begin]][0]],
+                    features_.corners[features_.triangles[order_[begin]][0]], begin, end - begin});
+  if (end - begin <= kLeafSize) {
+    Node& leaf = nodes_[self];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      for (const std::uint32_t corner : features_.triangles[order_[i]]) {
+        leaf.lo = lower(leaf.lo, features_.corners[corner]);
+        leaf.hi = upper(leaf.hi, features_.corners[corner]);
+      }
+    }
+    return self;
   }
+  std::uint32_t middle = begin + (end - begin) / 2;
+  const std::uint64_t differing = sorted[begin].code ^ sorted[end - 1].code;
+  if (differing != 0) {
+    const std::uint64_t bit = std::bit_floor(differing);
+    const auto first_set = std::partition_point(sorted.begin() + begin, sorted.begin() + end,
+                                                [&](const MortonTriangle& m) { return (m.code & bit) == 0; });
+    middle = static_cast<std::uint32_t>(first_set - sorted.begin());
+  }
+  const std::uint32_t first = build(sorted, begin, middle), second = build(sorted, middle, end);
+  nodes_[self] = {lower(nodes_[first].lo, nodes_[second].lo), upper(nodes_[first].hi, nodes_[second].hi), second, 0};
+  return self;
 }
 
 float TriangleTree::squared_distance(const Node& node, float x, float y, float z) {
@@ -107,36 +107,26 @@ float TriangleTree::squared_distance(std::size_t triangle, float x, float y, flo
 
 float TriangleTree::nearest_squared(float x, float y, float z, float bound) const {
   struct Pending {
-    std::size_t node;
+    std::uint32_t node;
     float square;
   };
   std::array<Pending, kMaxDepth> stack;
   std::size_t depth = 0;
   float best = bound;
-  const auto look = [&](std::size_t node) { return Pending{node, squared_distance(nodes_[node], x, y, z)}; };
+  const auto look = [&](std::uint32_t node) { return Pending{node, squared_distance(nodes_[node], x, y, z)}; };
   Pending at = look(0);
   for (;;) {
     if (at.square <= best * kSlack + kSlackAbsolute) {
-      const std::size_t left = 2 * at.node + 1;
-      if (left + 1 < nodes_.size()) {
-        Pending near = look(left), far = look(left + 1);
+      const Node& node = nodes_[at.node];
+      if (node.count == 0) {
+        Pending near = look(at.node + 1), far = look(node.next);
         if (far.square < near.square) std::swap(near, far);
         TETSOUP_ASSERT(depth < stack.size());
         stack[depth++] = far;
         at = near;
         continue;
       }
-      if (left < nodes_.size()) {
-        at = look(left);
-        continue;
-      }
-      if (at.node < first_leaf_) {  // a box of nothing
-        if (depth == 0) return best;
-        at = stack[--depth];
-        continue;
-      }
-      const std::size_t begin = (at.node - first_leaf_) * kLeafSize;
-      for (std::size_t i = begin; i < std::min(order_.size(), begin + kLeafSize); ++i)
+      for (std::uint32_t i = node.next; i < node.next + node.count; ++i)
         best = std::min(best, squared_distance(order_[i], x, y, z));
     }
     if (depth == 0) return best;

@@ -9,7 +9,8 @@
 
 namespace tetsoup {
 
-/// A complete binary tree over the triangles in Morton order: node i has the children 2 i + 1 and 2 i + 2.
+/// A binary tree over the triangles in Morton order, split where the highest bit of the code changes: its boxes are
+/// those of an octree's cells.
 class TriangleTree {
  public:
   /// Keeps a reference to the features.
@@ -22,14 +23,19 @@ class TriangleTree {
  private:
   struct Node {
     Vec3 lo, hi;
+    std::uint32_t next = 0;   ///< Inner: the second child (the first follows its parent). Leaf: first of `order_`.
+    std::uint32_t count = 0;  ///< Triangles of a leaf; 0 for an inner node.
   };
+  struct MortonTriangle {
+    std::uint64_t code;
+    std::uint32_t triangle;
+  };
+  std::uint32_t build(const std::vector<MortonTriangle>& sorted, std::uint32_t begin, std::uint32_t end);
   static float squared_distance(const Node& node, float x, float y, float z);
-
   float squared_distance(std::size_t triangle, float x, float y, float z) const;
 
-  std::size_t first_leaf_ = 0;
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;  ///< The triangles of the leaves.
+  std::vector<std::uint32_t> order_;
   const SoupFeatures& features_;
 };
 

@@ -16,8 +16,16 @@ struct RowBounds {
   int width = 0;  ///< 0 <= x < width
 };
 
-/// Cuts the rows (0..count, z): begin[y] is the first voxel not below any lower bound, end[y] is one beyond the last
-/// voxel not above any upper bound; 0 and 0 if there is none between them. Both hold `count` rounded up to 16.
-void clip_rows(const RowBounds& bounds, int count, int z, std::int32_t* begin, std::int32_t* end);
+inline constexpr int kRowGroup = 8;
+
+/// Rows of a layer that clip_rows() writes: `count` rounded up to whole groups.
+inline int padded_rows(int count) {
+  return (count + kRowGroup - 1) / kRowGroup * kRowGroup;
+}
+
+/// Cuts the rows (0..rows, 0..layers): begin is the first voxel not below any lower bound, end is one beyond the
+/// last voxel not above any upper bound; 0 and 0 if there is none between them.
+/// @param begin, end  (layers, padded_rows(rows))
+void clip_rows(const RowBounds& bounds, int rows, int layers, std::int32_t* begin, std::int32_t* end);
 
 }  // namespace tetsoup::kernel
