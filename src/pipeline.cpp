@@ -39,7 +39,7 @@ void check_memory(const CleanSoup& soup, const MeshOptions& options) {
 }  // namespace
 
 std::size_t grid_memory(const GridFrame& frame) {
-  // Float distance, votes as bytes; bit-sliced votes of two candidates, and a handful of bit grids.
+  // Float distance; bit-sliced votes of two candidates, and a handful of bit grids.
   return frame.voxel_count() * (4 + 1) + frame.voxel_count() / 8 * (2 * 5 + 7);
 }
 

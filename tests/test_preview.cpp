@@ -12,6 +12,7 @@
 #include "tetsoup/error.h"
 #include "tetsoup/io.h"
 #include "tetsoup/samples.h"
+#include "vote_grids.h"
 
 namespace tetsoup {
 namespace {
@@ -32,16 +33,17 @@ struct SmallScene {
     frame.size = {kSize, kSize, kSize};
     frame.origin = {-1, -1, -1};
     frame.voxel_size = 0.1;
-    volume.votes.frame = volume.inside.frame = frame;
-    volume.votes.values.assign(frame.voxel_count(), 0);
+    const auto votes_at = [](int x, int y, int z) {
+      return static_cast<int>(std::max(0.0, 26 - 13.0 / 7 * std::hypot(x - 9.5, y - 9.5, z - 9.5)));
+    };
+    volume.votes = test::make_votes(frame, votes_at);
+    volume.inside.frame = frame;
     volume.inside.words_per_row = 1;
     volume.inside.words.assign(kSize * kSize, 0);
     for (int z = 0; z < kSize; ++z) {
       for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
-          const double votes = 26 - 13.0 / 7 * std::hypot(x - 9.5, y - 9.5, z - 9.5);
-          volume.votes.values[volume.votes.index(x, y, z)] = static_cast<std::uint8_t>(std::max(0.0, votes));
-          if (votes >= 14) volume.inside.words[volume.inside.row(y, z)] |= std::uint64_t{1} << x;
+          if (votes_at(x, y, z) >= 14) volume.inside.words[volume.inside.row(y, z)] |= std::uint64_t{1} << x;
         }
       }
     }

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "kernel/reference.h"
+#include "kernel/targets.h"
 #include "ray_parity.h"
 #include "shapes.h"
 #include "tetsoup/error.h"
 #include "tetsoup/pseudo_volume.h"
 #include "tetsoup/samples.h"
+#include "vote_grids.h"
 
 namespace tetsoup {
 namespace {
@@ -47,7 +49,9 @@ TEST(PseudoVolume, bits_of_the_fast_rays_are_those_of_the_obvious_ones) {
           const auto obvious =
               reference::count_votes(dense(field.distance), static_cast<float>(band * field.distance.frame.voxel_size),
                                      rays, placement == Placement::Entry);
-          ASSERT_EQ(fast.votes.values, obvious.values) << voxels << ' ' << band << ' ' << rays;
+          const auto expected =
+              test::make_votes(obvious.frame, [&](int x, int y, int z) { return int{obvious.at(x, y, z)}; });
+          ASSERT_EQ(fast.votes, expected) << voxels << ' ' << band << ' ' << rays;
         }
       }
     }
@@ -142,12 +146,27 @@ TEST(PseudoVolume, half_of_the_triangles_is_enough) {
   EXPECT_TRUE(half.report.automatic);
 }
 
+TEST(PseudoVolume, every_instruction_set_gives_the_same_bits) {
+  const DistanceField field = make_field(test::make_confetti(60, 0.2, 5), 70);
+  for (const Placement placement : {Placement::Closest, Placement::Entry}) {
+    PseudoVolumeOptions options;
+    options.placement = placement;
+    const PseudoVolume best = classify_volume(field, options);
+    for_each_simd_target([&](const std::string& target) {
+      const PseudoVolume volume = classify_volume(field, options);
+      EXPECT_EQ(volume.votes, best.votes) << target;
+      EXPECT_EQ(volume.inside.words, best.inside.words) << target;
+      EXPECT_EQ(volume.report.band_voxels, best.report.band_voxels) << target;
+    });
+  }
+}
+
 TEST(PseudoVolume, winding_and_order_change_nothing) {
   const TriangleSoup soup = make_sample("robot");
   const PseudoVolume a = classify_volume(make_field(soup, 64));
   const PseudoVolume b = classify_volume(make_field(test::scrambled(soup, 3), 64));
   EXPECT_EQ(a.inside.words, b.inside.words);
-  EXPECT_EQ(a.votes.values, b.votes.values);
+  EXPECT_EQ(a.votes, b.votes);
 }
 
 TEST(PseudoVolume, mirroring_the_soup_mirrors_the_votes) {
@@ -161,7 +180,7 @@ TEST(PseudoVolume, mirroring_the_soup_mirrors_the_votes) {
   for (int z = 0; z < nz; ++z)
     for (int y = 0; y < ny; ++y)
       for (int x = 0; x < nx; ++x) differ += a.votes.at(x, y, z) != b.votes.at(nx - 1 - x, y, z);
-  EXPECT_LE(differ, a.votes.values.size() / 500) << "only distances that rounding makes equal may differ";
+  EXPECT_LE(differ, a.votes.frame.voxel_count() / 500) << "only distances that rounding makes equal may differ";
 }
 
 TEST(PseudoVolume, the_choice_does_not_depend_on_how_wide_the_known_band_is) {
@@ -216,7 +235,7 @@ TEST(PseudoVolume, same_bits_at_any_thread_count_and_cancellable) {
   set_thread_count(5);
   const PseudoVolume many = classify_volume(field);
   set_thread_count(0);
-  EXPECT_EQ(one.votes.values, many.votes.values);
+  EXPECT_EQ(one.votes, many.votes);
   EXPECT_EQ(one.report.band_voxels, many.report.band_voxels);
   EXPECT_THROW(classify_volume(field, {}, [](std::string_view, double f) { return f < 0.3; }), Cancelled);
 }

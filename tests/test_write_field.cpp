@@ -7,6 +7,7 @@
 #include "base/block_grid.h"
 #include "tet_file_fixtures.h"
 #include "tetsoup/io.h"
+#include "vote_grids.h"
 
 namespace tetsoup {
 
@@ -27,7 +28,7 @@ Field ball_field(double band) {
   frame.origin = {-1.5, 0.1, 1e-3};
   frame.voxel_size = 0.25;
   made.field.distance = make_block_grid(frame);
-  made.volume.votes.frame = made.volume.inside.frame = frame;
+  made.volume.inside.frame = frame;
   std::vector<float> slab(slab_values(made.field.distance, 0), std::numeric_limits<float>::infinity());
   made.field.band = band;
   made.field.d_max = 33;
@@ -39,11 +40,12 @@ Field ball_field(double band) {
         const float r = std::hypot(static_cast<float>(x - 65), static_cast<float>(y - 3), static_cast<float>(z - 2));
         const float d = std::abs(r - 2);
         if (d < band) slab[static_cast<std::size_t>((z * 7 + y) * 128 + x)] = d;
-        made.volume.votes.values.push_back(static_cast<std::uint8_t>(r < 2 ? 26 : x % 13));
         if (r < 2)
           made.volume.inside.words[made.volume.inside.row(y, z) + static_cast<std::size_t>(x / 64)] |= 1ULL << (x % 64);
       }
   store_slab(made.field.distance, 0, slab);
+  made.volume.votes =
+      test::make_votes(frame, [&](int x, int y, int z) { return made.volume.inside.test(x, y, z) ? 26 : x % 13; });
   return made;
 }
 
@@ -78,10 +80,11 @@ TEST_F(WriteFieldTest, holds_all_four_arrays_with_the_values_given) {
   const std::vector<float> given = dense(made.field.distance).values;
   for (std::size_t i = 0; i < count; ++i) {
     const float d = given[i];
-    const bool is_inside = made.volume.votes.values[i] == 26;
+    const int x = static_cast<int>(i % 70), y = static_cast<int>(i / 70 % 7), z = static_cast<int>(i / 70 / 7);
+    const bool is_inside = made.volume.inside.test(x, y, z);
     ASSERT_EQ(float_at(distance, i), d);
     ASSERT_EQ(float_at(with_sign, i), is_inside ? -d : d);
-    ASSERT_EQ(static_cast<std::uint8_t>(votes[i]), made.volume.votes.values[i]);
+    ASSERT_EQ(static_cast<int>(votes[i]), is_inside ? 26 : x % 13);
     ASSERT_EQ(inside[i], is_inside ? 1 : 0);
   }
   EXPECT_TRUE(file.ends_with("</VTKFile>\n"));

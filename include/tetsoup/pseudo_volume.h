@@ -1,6 +1,7 @@
 // tetsoup, stage 3: which voxels lie in the pseudo volume, the space the soup intuitively occupies?
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -58,9 +59,32 @@ struct PseudoVolumeReport {
   double consensus = 0;  ///< Mean of |2 votes / rays - 1| over all voxels; 1 = all rays agree everywhere.
 };
 
+/// How many rays call each voxel inside, bit-sliced: 64 voxels along x share a word, as they do in a BitGrid.
+struct VoteGrid {
+  struct Word {
+    std::array<std::uint64_t, 5> slices{};  ///< Slice i holds bit i of every count.
+    bool operator==(const Word&) const = default;
+  };
+
+  GridFrame frame;
+  std::size_t words_per_row = 0;
+  std::vector<Word> words;  ///< (nz, ny, words_per_row); counts beyond a row's end are zero.
+
+  int at(int x, int y, int z) const {
+    const std::size_t row =
+        static_cast<std::size_t>(y) + static_cast<std::size_t>(frame.size[1]) * static_cast<std::size_t>(z);
+    const Word& word = words[row * words_per_row + static_cast<std::size_t>(x >> 6)];
+    int count = 0;
+    for (std::size_t i = 0; i < word.slices.size(); ++i)
+      count |= static_cast<int>(word.slices[i] >> (x & 63) & 1U) << i;
+    return count;
+  }
+  bool operator==(const VoteGrid&) const = default;
+};
+
 struct PseudoVolume {
   BitGrid inside;
-  Grid<std::uint8_t> votes;  ///< Rays that call the voxel inside, 0..rays.
+  VoteGrid votes;  ///< 0..rays.
   int rays = 26;
   PseudoVolumeReport report;
 };
@@ -75,7 +99,8 @@ struct PseudoVolume {
 /// distances.
 /// @return       Votes and inside bits on the field's grid. Bitwise the same for any thread count.
 /// @throws InvalidInput  if an option is out of range or the field's band is too narrow for it; Cancelled.
-/// Cost: O(voxels) bit operations; 1 byte per voxel plus 6 bits while it runs. Automatic: once per candidate.
+/// Cost: O(voxels) bit operations, once per candidate of the automatic choice. 6 bits per voxel for the result; while it
+/// runs as much again, 6 bits per voxel more, and 5 bytes for every voxel of a word of 64 that has one in the band.
 PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptions& options = {},
                              const Progress& progress = {});
 

@@ -37,6 +37,35 @@ inline std::uint64_t shifted_down(const std::uint64_t* row, std::size_t w, std::
   return row[w] >> 1 | (w + 1 < words ? row[w + 1] << 63 : 0);
 }
 
+/// The rows of a grid by (y, z), also beyond it.
+class BitRows {
+ public:
+  explicit BitRows(const BitGrid& bits) : bits_(bits) {}
+
+  /// Null beyond the grid.
+  const std::uint64_t* at(int y, int z) const {
+    const bool within = y >= 0 && z >= 0 && y < bits_.frame.size[1] && z < bits_.frame.size[2];
+    return within ? bits_.words.data() + bits_.row(y, z) : nullptr;
+  }
+  /// Bits of word `w` of a row that have a set bit among their 27 neighbours.
+  std::uint64_t grown(int y, int z, std::size_t w) const {
+    std::uint64_t middle = 0, below = 0, above = 0;  // of the nine rows, what touches the word
+    for (int dz = -1; dz <= 1; ++dz) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        const std::uint64_t* row = at(y + dy, z + dz);
+        if (row == nullptr) continue;
+        middle |= row[w];
+        if (w > 0) below |= row[w - 1];
+        if (w + 1 < bits_.words_per_row) above |= row[w + 1];
+      }
+    }
+    return middle | middle << 1 | middle >> 1 | below >> 63 | above << 63;
+  }
+
+ private:
+  const BitGrid& bits_;
+};
+
 /// Bit i of the result is the exclusive or of bits 0..i.
 inline std::uint64_t prefix_parity(std::uint64_t v) {
   for (int shift = 1; shift < 64; shift *= 2) v ^= v << shift;

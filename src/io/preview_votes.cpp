@@ -169,7 +169,7 @@ void draw_legend(Image& image, const Rect& panel, int rays) {
 }  // namespace
 
 void draw_votes_panel(Image& image, const Rect& panel, int up_axis, const PseudoVolume& volume) {
-  if (volume.votes.values.empty()) return;
+  if (volume.votes.words.empty()) return;
   const Slice slice = choose_slice(volume.inside, up_axis);
   VotesPicture picture(image, panel, volume, slice);
   picture.draw_cells();

@@ -111,8 +111,9 @@ void write_field(const std::filesystem::path& path, const DistanceField& field, 
   write_array(file, kArrays[1], frame, [&](std::string& buffer, int x, int y, int z) {
     append_raw(buffer, volume.inside.test(x, y, z) ? -distance(x, y, z) : distance(x, y, z));
   });
-  write_array(file, kArrays[2], frame,
-              [&](std::string& buffer, int x, int y, int z) { append_raw(buffer, volume.votes.at(x, y, z)); });
+  write_array(file, kArrays[2], frame, [&](std::string& buffer, int x, int y, int z) {
+    append_raw(buffer, static_cast<std::uint8_t>(volume.votes.at(x, y, z)));
+  });
   write_array(file, kArrays[3], frame, [&](std::string& buffer, int x, int y, int z) {
     append_raw(buffer, static_cast<std::uint8_t>(volume.inside.test(x, y, z) ? 1 : 0));
   });

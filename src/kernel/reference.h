@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "kernel/event_masks.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup::reference {
@@ -61,6 +62,38 @@ inline Grid<std::uint8_t> count_votes(const Grid<float>& distance, float band, i
     }
   }
   return votes;
+}
+
+/// Bits of 64 voxels about one axis: those ahead begin at `next`, those behind at `previous`.
+template <class Value>
+AxisEvents find_axis_events(const Value& here, const Value& next, const Value& previous) {
+  AxisEvents events;
+  for (int x = 0; x < 64; ++x) {
+    const auto mark = [&](std::uint64_t& bits, bool set) { bits |= static_cast<std::uint64_t>(set) << x; };
+    mark(events.ahead, next(x) >= here(x) && next(x) >= previous(x));
+    mark(events.behind, previous(x) >= here(x) && previous(x) >= next(x));
+    mark(events.lowest, next(x) >= here(x) && previous(x) >= here(x));
+  }
+  return events;
+}
+
+inline WordEvents find_events(const BlockNeighbours& around) {
+  const auto values = [&](int dx, int dy, int dz) {
+    const auto row = static_cast<std::size_t>(3 * (dz + 1) + dy + 1);
+    return [&around, row, dx](int x) {
+      return x + dx < 0 ? around.before[row] : x + dx > 63 ? around.after[row] : around.rows[row][x + dx];
+    };
+  };
+  const auto about = [&](int dx, int dy, int dz) {
+    return find_axis_events(values(0, 0, 0), values(dx, dy, dz), values(-dx, -dy, -dz));
+  };
+  WordEvents events;
+  for (std::size_t kind = 0; kind < kSheetKinds; ++kind) {
+    const auto [dy, dz] = kSheetSteps[kind];
+    for (int dx = -1; dx <= 1; ++dx) events.sheets[kind][static_cast<std::size_t>(dx + 1)] = about(dx, dy, dz);
+  }
+  events.along_x = about(1, 0, 0);
+  return events;
 }
 
 }  // namespace tetsoup::reference

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/parallel.h"
-#include "base/bits.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {

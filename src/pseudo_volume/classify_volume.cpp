@@ -3,7 +3,9 @@
 #include <bit>
 #include <cmath>
 
+#include "base/bits.h"
 #include "base/require.h"
+#include "pseudo_volume/band_bits.h"
 #include "pseudo_volume/cavities.h"
 #include "pseudo_volume/rays.h"
 #include "pseudo_volume/score.h"
@@ -25,9 +27,11 @@ constexpr std::array<double, 3> kTiers{2, 3, 8};
 /// votes are speckle or nothing, and the best may lie anywhere.
 constexpr std::size_t kWorseInARow = 2;
 constexpr double kSoundScore = 0.45;
+constexpr double kTrialsShare = 0.95;  ///< Of the stage's time, for progress.
 
+/// What one band gives.
 struct Trial {
-  std::vector<VoteWord> votes;
+  VoteGrid votes;
   BitGrid inside;
   VoteStatistics statistics;
 };
@@ -62,23 +66,65 @@ bool is_useful(const DistanceField& field, double band_voxels) {
   return band_voxels == kCandidates.front() || band_voxels * field.distance.frame.voxel_size < field.d_max;
 }
 
-Trial try_band(const DistanceField& field, const Grid<float>& distance, double band_voxels,
-               const PseudoVolumeOptions& options, const BitGrid& unpadded, StageWatch& watch, double begin,
-               double end) {
-  Trial trial;
-  const auto band = static_cast<float>(band_voxels * field.distance.frame.voxel_size);
-  cast_rays(distance, band, options.rays, options.placement, trial.votes, watch, begin, end);
-  trial.inside = majority(field.distance.frame, trial.votes, options.rays);
-  trial.statistics = summarize_votes(trial.inside, unpadded, trial.votes, options.rays);
-  return trial;
-}
+/// Votes with one band after the other; what does not depend on the band is found once.
+class Trials {
+ public:
+  Trials(const DistanceField& field, const PseudoVolumeOptions& options, StageWatch& watch)
+      : distance_(field.distance), options_(options), watch_(watch) {}
+
+  /// Overwrites `trial`, and takes its memory. The watch's part is covered from `begin` to `end`.
+  void run(double band_voxels, Trial& trial, double begin, double end) {
+    watch_.enter_part(begin, begin + kEventsShare * (end - begin));
+    begin += kEventsShare * (end - begin);
+    find_events_for(band_voxels);
+    const float limit = length(band_voxels);
+    const BitGrid band = std::move(voxels_below(distance_, {&limit, 1}, watch_).front());
+    clear(trial.votes);
+    if (trial.inside.words.empty()) trial.inside = make_bit_grid(distance_.frame);
+    cast_rays(band, *events_, options_.rays, trial.votes, watch_, begin, end);
+    trial.statistics = count_votes(trial.votes, options_.rays, trial.inside, watch_);
+  }
+
+ private:
+  static constexpr double kEventsShare = 0.3;  ///< Of the time of a trial.
+
+  float length(double voxels) const { return static_cast<float>(voxels * distance_.frame.voxel_size); }
+
+  /// Events are found as far as the known distance is asked for, so that they serve several candidates.
+  void find_events_for(double band_voxels) {
+    const bool anywhere = options_.placement == Placement::Entry;
+    if (events_ && (anywhere || events_->reach() >= length(band_voxels))) return;
+    const auto* tier = std::lower_bound(kTiers.begin(), kTiers.end(), band_voxels);
+    const double reach = is_automatic(options_) && tier != kTiers.end() ? *tier : band_voxels;
+    events_.reset();
+    events_.emplace(distance_, anywhere ? 0 : length(reach), watch_);
+  }
+
+  void clear(VoteGrid& votes) {
+    votes.frame = distance_.frame;
+    votes.words_per_row = distance_.blocks_per_row;
+    votes.words.resize(votes.words_per_row * static_cast<std::size_t>(votes.frame.size[1]) *
+                       static_cast<std::size_t>(votes.frame.size[2]));
+    constexpr std::int64_t kWordsAtOnce = 1 << 16;
+    parallel_for(static_cast<std::int64_t>(votes.words.size()), kWordsAtOnce, watch_,
+                 [&](std::int64_t first, std::int64_t last) {
+                   std::fill(votes.words.begin() + first, votes.words.begin() + last, VoteWord{});
+                 });
+  }
+
+  const BlockGrid& distance_;
+  const PseudoVolumeOptions& options_;
+  StageWatch& watch_;
+  std::optional<EventStore> events_;
+};
 
 /// Tries the candidates from narrow to wide and keeps the first of the best. The rule never looks at how far the field
 /// is known: where that is not far enough to decide, the report asks for more.
-void choose_band(const DistanceField& field, const Grid<float>& distance, const PseudoVolumeOptions& options,
-                 const SoupMarks& marks, StageWatch& watch, PseudoVolumeReport& report, Trial& best) {
+void choose_band(const DistanceField& field, Trials& trials, const SoupMarks& marks, StageWatch& watch,
+                 PseudoVolumeReport& report, Trial& best) {
   double best_score = -1;
   std::size_t worse = 0;
+  Trial trial;
   for (const double band : kCandidates) {
     if (!is_useful(field, band) || (worse >= kWorseInARow && best_score >= kSoundScore)) break;
     if (!is_served(field, band)) {
@@ -86,36 +132,25 @@ void choose_band(const DistanceField& field, const Grid<float>& distance, const 
       break;
     }
     const double tried = static_cast<double>(report.candidates.size());
-    const auto part = [&](double n) { return n / static_cast<double>(kCandidates.size()); };
-    Trial trial = try_band(field, distance, band, options, marks.unpadded, watch, part(tried), part(tried + 1));
-    const double score = score_votes(trial.inside, marks, trial.statistics);
+    const auto part = [&](double n) { return kTrialsShare * n / static_cast<double>(kCandidates.size()); };
+    trials.run(band, trial, part(tried), part(tried + 1));
+    const double score = score_votes(trial.inside, marks, trial.statistics, watch);
     report.candidates.push_back({band, score, trial.statistics.consensus});
     ++worse;
     if (score > best_score) {
       best_score = score;
       worse = 0;
       report.band_voxels = band;
-      best = std::move(trial);
+      std::swap(best, trial);
     }
   }
 }
 
-void expand_votes(const std::vector<VoteWord>& votes, std::size_t words_per_row, Grid<std::uint8_t>& bytes,
-                  StageWatch& watch) {
-  const auto nx = static_cast<std::size_t>(bytes.frame.size[0]);
-  bytes.values.resize(bytes.frame.voxel_count());
-  const auto rows = static_cast<std::int64_t>(bytes.values.size() / nx);
-  parallel_for(rows, 64, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row) {
-      std::uint8_t* out = bytes.values.data() + row * nx;
-      for (std::size_t w = 0; w < words_per_row; ++w) {
-        const VoteWord& word = votes[row * words_per_row + w];
-        if (word.above(0) == 0) continue;
-        for (std::size_t x = 64 * w; x < std::min(nx, 64 * w + 64); ++x)
-          out[x] = word.at(static_cast<unsigned>(x % 64));
-      }
-    }
-  });
+std::size_t count_voxels(const BitGrid& bits) {
+  std::size_t count = 0;
+  for (const std::uint64_t word : bits.words)
+    if (word != 0) count += static_cast<std::size_t>(std::popcount(word));
+  return count;
 }
 
 }  // namespace
@@ -130,8 +165,8 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   check_options(options);
   const GridFrame& frame = field.distance.frame;
   StageWatch watch(progress, "pseudo_volume");
-  const Grid<float> distance = dense(field.distance);
-  const SoupMarks marks = mark_soup(distance, watch);
+  const SoupMarks marks = mark_soup(field.distance, watch);
+  Trials trials(field, options, watch);
 
   PseudoVolume result;
   result.rays = options.rays;
@@ -139,7 +174,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   Trial trial;
   if (is_automatic(options)) {
     report.automatic = true;
-    choose_band(field, distance, options, marks, watch, report, trial);
+    choose_band(field, trials, marks, watch, report, trial);
   } else {
     const double asked = asked_band_voxels(field, options);
     report.floored = asked < kFloorVoxels;
@@ -147,22 +182,20 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
     if (!is_served(field, report.band_voxels))
       throw InvalidInput(
           "the distance field's band is too narrow for this k: widen_distance() to band_needed_voxels()");
-    trial = try_band(field, distance, report.band_voxels, options, marks.unpadded, watch, 0, 1);
+    trials.run(report.band_voxels, trial, 0, kTrialsShare);
   }
 
+  watch.enter_part(kTrialsShare, 1);
   if (options.cavities == Cavities::Fill && !report.wants_band_voxels)
     report.cavity_voxels = fill_cavities(trial.inside, marks.sealed, watch);
-  for (const std::uint64_t word : trial.inside.words)
-    report.inside_voxels += static_cast<std::size_t>(std::popcount(word));
-  report.soup_covered = covered_share(trial.inside, marks.touched);
+  report.inside_voxels = count_voxels(trial.inside);
+  report.soup_covered = covered_share(trial.inside, marks.touched, watch);
   report.band = report.band_voxels * frame.voxel_size;
   report.k = field.d_max > 0 ? std::max(0.0, 1 - report.band / field.d_max) : 0;
   report.volume = static_cast<double>(report.inside_voxels) * std::pow(frame.voxel_size, 3);
   report.consensus = trial.statistics.consensus;
   result.inside = std::move(trial.inside);
-  result.votes.frame = frame;
-  watch.enter_part(0.98, 1);
-  expand_votes(trial.votes, result.inside.words_per_row, result.votes, watch);
+  result.votes = std::move(trial.votes);
   return result;
 }
 

@@ -1,17 +1,18 @@
-// Volume events along the 26 rays through every voxel, for one band.
+// The 26 rays through every voxel, for one band.
 #pragma once
 
-#include <vector>
-
 #include "base/parallel.h"
+#include "pseudo_volume/event_store.h"
 #include "pseudo_volume/votes.h"
 #include "tetsoup/pseudo_volume.h"
 
 namespace tetsoup {
 
-/// Counts, for every voxel, the rays that call it inside, with volume events where the distance is below `band`.
-/// `votes` is cleared first. The watch's current part is covered from `begin` to `end`.
-void cast_rays(const Grid<float>& distance, float band, int rays, Placement placement, std::vector<VoteWord>& votes,
-               StageWatch& watch, double begin, double end);
+/// Counts, for every voxel, the rays that call it inside, with volume events where `band` is set.
+/// @param events  Reaches at least as far as the band.
+/// @param votes   On the band's grid; all zero before.
+/// The watch's current part is covered from `begin` to `end`.
+void cast_rays(const BitGrid& band, const EventStore& events, int rays, VoteGrid& votes, StageWatch& watch,
+               double begin, double end);
 
 }  // namespace tetsoup

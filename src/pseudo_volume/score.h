@@ -1,40 +1,36 @@
 // How good is a choice of the band? Judged from the votes alone, without knowing the true solid.
 #pragma once
 
-#include <vector>
-
 #include "base/parallel.h"
 #include "pseudo_volume/votes.h"
-#include "tetsoup/distance.h"
 #include "tetsoup/pseudo_volume.h"
 
 namespace tetsoup {
 
-/// Inside bits of a vote: a strict majority of the rays.
-BitGrid majority(const GridFrame& frame, const std::vector<VoteWord>& votes, int rays);
-
 /// What the score and the cavities need of the soup, the same for all candidates. Without the padding, which must not
 /// change the choice.
 struct SoupMarks {
-  BitGrid near;      ///< Voxels within 1.2 voxels of the soup.
-  BitGrid sealed;    ///< Within 0.9 voxels: no path of face neighbours leads through a closed surface past these.
-  BitGrid touched;   ///< Within 0.6 voxels.
-  BitGrid unpadded;  ///< All voxels of the soup's box.
+  BitGrid near;     ///< Voxels within 1.2 voxels of the soup.
+  BitGrid sealed;   ///< Within 0.9 voxels: no path of face neighbours leads through a closed surface past these.
+  BitGrid touched;  ///< Within 0.6 voxels.
 };
-SoupMarks mark_soup(const Grid<float>& distance, StageWatch& watch);
+SoupMarks mark_soup(const BlockGrid& distance, StageWatch& watch);
 
+/// Over the voxels of the soup's box, without the padding.
 struct VoteStatistics {
   std::size_t inside = 0;
   double consensus_inside = 0, consensus_outside = 0;  ///< Mean of |2 votes / rays - 1|.
   double consensus = 0;
 };
-VoteStatistics summarize_votes(const BitGrid& inside, const BitGrid& unpadded, const std::vector<VoteWord>& votes,
-                               int rays);
+
+/// Ends a vote: the inside bits, by a strict majority of the rays.
+/// @param inside  On the votes' grid; every word is written.
+VoteStatistics count_votes(const VoteGrid& votes, int rays, BitGrid& inside, StageWatch& watch);
 
 /// Share of the touched voxels that have an inside voxel among their 27 neighbours.
-double covered_share(const BitGrid& inside, const BitGrid& touched);
+double covered_share(const BitGrid& inside, const BitGrid& touched, StageWatch& watch);
 
 /// The score of docs/METHOD.md: both sides agree, the boundary runs along the soup, the soup is covered.
-double score_votes(const BitGrid& inside, const SoupMarks& marks, const VoteStatistics& statistics);
+double score_votes(const BitGrid& inside, const SoupMarks& marks, const VoteStatistics& statistics, StageWatch& watch);
 
 }  // namespace tetsoup
