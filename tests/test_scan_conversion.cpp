@@ -6,8 +6,9 @@
 
 #include "distance/scan_conversion.h"
 #include "distance/triangle_tree.h"
+#include "kernel/targets.h"
 #include "shapes.h"
-#include "simd_targets.h"
+
 #include "tetsoup/distance.h"
 #include "tetsoup/samples.h"
 
@@ -121,7 +122,7 @@ TEST(ScanConversion, gives_the_bits_of_the_brute_force_on_slivers) {
 TEST(ScanConversion, has_the_same_bits_on_every_instruction_set_and_thread_count) {
   const CleanSoup soup = clean_soup(test::joined(make_sample("torus"), test::make_confetti(200, 0.2, 9)));
   const BlockGrid usual = scanned(soup, 70, 3.5F);
-  test::for_each_simd_target([&] { EXPECT_EQ(scanned(soup, 70, 3.5F), usual); });
+  for_each_simd_target([&](const std::string& target) { EXPECT_EQ(scanned(soup, 70, 3.5F), usual) << target; });
   for (const int threads : {1, 2, 7}) {
     set_thread_count(threads);
     EXPECT_EQ(scanned(soup, 70, 3.5F), usual) << threads;

@@ -18,7 +18,7 @@ enum class DistanceMode {
 struct DistanceOptions {
   std::optional<int> voxels;         ///< Along the longest axis of the box, 1..4096. Neither given: 128.
   std::optional<double> voxel_size;  ///< Edge of a voxel; instead of `voxels`.
-  double band_voxels = 4;            ///< Half width of the exact band, in voxels, >= 3.
+  double band_voxels = 3.25;         ///< Half width of the exact band, in voxels, >= 3; what a sound surface needs.
   DistanceMode mode = DistanceMode::Band;
   std::optional<Box3> box;  ///< The space to cover, default the soup's own box. It must hold the soup.
   bool operator==(const DistanceOptions&) const = default;

@@ -22,7 +22,7 @@ constexpr double kReachVoxels = 1.74;
 constexpr std::array<double, 10> kCandidates{0.9, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
 /// Known distance is asked for in these steps, since it costs more than trying a candidate: sound surfaces need the
 /// first.
-constexpr std::array<double, 3> kTiers{2, 3, 8};
+constexpr std::array<double, 3> kTiers{1.5, 3, 8};
 /// The choice ends once this many candidates in a row did worse than the best, if the best is sound: below that score,
 /// votes are speckle or nothing, and the best may lie anywhere.
 constexpr std::size_t kWorseInARow = 2;
