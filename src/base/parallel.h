@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "tetsoup/error.h"
 #include "tetsoup/progress.h"
@@ -98,6 +99,18 @@ void parallel_for(std::int64_t count, std::int64_t grain, StageWatch& watch, con
   for (std::int64_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
 #endif
   watch.throw_if_stopped();
+}
+
+/// Sum of body(begin, end) over the chunks, added in their order. As parallel_for() otherwise.
+template <class Sum, class Body>
+Sum parallel_sum(std::int64_t count, std::int64_t grain, StageWatch& watch, const Body& body) {
+  std::vector<Sum> parts(static_cast<std::size_t>(chunk_count(count, grain)));
+  parallel_for(count, grain, watch, [&](std::int64_t begin, std::int64_t end) {
+    parts[static_cast<std::size_t>(begin / grain)] = body(begin, end);
+  });
+  Sum sum{};
+  for (const Sum& part : parts) sum += part;
+  return sum;
 }
 
 /// Sorts by a strict total order (no two elements equal, or equal ones indistinguishable), so any algorithm gives the
