@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <set>
 
 #include "shapes.h"
 #include "tetsoup/error.h"
@@ -107,6 +110,82 @@ TEST(Soup, order_and_winding_leave_no_trace) {
     const CleanSoup b = clean_soup(test::scrambled(s, seed));
     EXPECT_EQ(a.soup.vertices, b.soup.vertices);
     EXPECT_EQ(a.soup.triangles, b.soup.triangles);
+  }
+}
+
+/// A soup of few distinct coordinates: many vertices share one, two or all three of them, many triangles an edge.
+TriangleSoup crowded_soup(std::uint64_t seed, std::size_t vertices, std::array<int, 3> values) {
+  test::Random random(seed);
+  const auto coordinate = [&](int count) {
+    const auto step = static_cast<float>(static_cast<int>(random.uniform() * count) - count / 2);
+    return random.uniform() < 0.5 ? 0.25F * step : -0.25F * -step;  // both zeros
+  };
+  TriangleSoup soup;
+  for (std::size_t i = 0; i < vertices; ++i)
+    soup.vertices.push_back({coordinate(values[0]), coordinate(values[1]), coordinate(values[2])});
+  const auto corner = [&] { return static_cast<std::uint32_t>(random.uniform() * static_cast<double>(vertices)); };
+  for (std::size_t i = 0; i < 2 * vertices; ++i) soup.triangles.push_back({corner(), corner(), corner()});
+  return soup;
+}
+
+/// The same by sets, maps and repetition.
+CleanSoup obviously_clean(const TriangleSoup& soup) {
+  using Position = std::array<float, 3>;
+  const auto position = [&](std::uint32_t v) -> Position {
+    return {soup.vertices[v].x + 0.0F, soup.vertices[v].y + 0.0F, soup.vertices[v].z + 0.0F};
+  };
+  CleanSoup clean;
+  std::set<Position> positions;
+  for (const Triangle& t : soup.triangles)
+    for (const std::uint32_t v : t) positions.insert(position(v));
+  for (const Position& p : positions) clean.soup.vertices.push_back({p[0], p[1], p[2]});
+  std::set<Triangle> triangles;
+  std::map<std::array<std::uint32_t, 2>, std::vector<bool>> edges;
+  std::vector<std::size_t> part(positions.size());
+  std::iota(part.begin(), part.end(), std::size_t{0});
+  for (Triangle t : soup.triangles) {
+    for (std::uint32_t& v : t)
+      v = static_cast<std::uint32_t>(std::distance(positions.begin(), positions.find(position(v))));
+    const bool is_line = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      if (!is_line) edges[{std::min(a, b), std::max(a, b)}].push_back(a < b);
+      const std::size_t from = part[a];
+      std::replace(part.begin(), part.end(), from, part[b]);
+    }
+    std::sort(t.begin(), t.end());
+    triangles.insert(t);
+  }
+  clean.soup.triangles.assign(triangles.begin(), triangles.end());
+  SoupReport& report = clean.report;
+  report.duplicates = soup.triangles.size() - triangles.size();
+  report.components = std::set<std::size_t>(part.begin(), part.end()).size();
+  for (const auto& [edge, upward] : edges) {
+    report.boundary_edges += upward.size() == 1;
+    report.non_manifold_edges += upward.size() > 2;
+    report.inconsistent_edges += upward.size() == 2 && upward[0] == upward[1];
+  }
+  return clean;
+}
+
+TEST(Soup, sorting_without_comparing_gives_what_sets_and_maps_give_at_any_thread_count) {
+  const std::array<std::array<int, 3>, 4> values{{{2, 3, 1000}, {1, 1, 1}, {1000, 2, 2}, {9, 9, 9}}};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const TriangleSoup soup = crowded_soup(i, 1500, values[i]);
+    const CleanSoup expected = obviously_clean(soup);
+    for (const int threads : {1, 5}) {
+      set_thread_count(threads);
+      const CleanSoup clean = clean_soup(soup);
+      set_thread_count(0);
+      ASSERT_EQ(clean.soup.vertices, expected.soup.vertices);
+      ASSERT_EQ(clean.soup.triangles, expected.soup.triangles);
+      EXPECT_EQ(clean.report.duplicates, expected.report.duplicates);
+      EXPECT_EQ(clean.report.components, expected.report.components);
+      EXPECT_EQ(clean.report.boundary_edges, expected.report.boundary_edges);
+      EXPECT_EQ(clean.report.non_manifold_edges, expected.report.non_manifold_edges);
+      EXPECT_EQ(clean.report.inconsistent_edges, expected.report.inconsistent_edges);
+      for (const Vec3& v : clean.soup.vertices) EXPECT_FALSE(std::signbit(v.x) && v.x == 0);
+    }
   }
 }
 

@@ -49,7 +49,7 @@ struct CleanSoup {
 /// a fact about the file; triangles with two equal corners have no edges to count.
 ///
 /// @throws Cancelled  if `progress` says so. Never throws on geometry; an empty result has class Empty.
-/// Cost: O(n log n) time, O(n) memory, one thread.
+/// Cost: O(n) time and memory, but for sorting what meets at one vertex; partly on all threads.
 CleanSoup clean_soup(const TriangleSoup& soup, const Progress& progress = {});
 
 }  // namespace tetsoup

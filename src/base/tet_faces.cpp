@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "base/parallel.h"
+#include "base/groups.h"
 #include "base/tet_geometry.h"
 
 namespace tetsoup {
@@ -30,18 +30,25 @@ bool is_valid_tet(const Tet& tet, std::size_t vertex_count) {
 }
 
 std::vector<TetFace> sorted_faces(const TetMesh& mesh) {
-  std::vector<TetFace> faces;
-  faces.reserve(4 * mesh.tets.size());
-  for (std::uint64_t slot = 0; slot < 4 * mesh.tets.size(); ++slot) {
-    if (!is_valid_tet(mesh.tets[slot / 4], mesh.vertices.size())) continue;
-    TetFace face{face_of(mesh, slot), slot};
-    std::sort(face.corners.begin(), face.corners.end());
-    faces.push_back(face);
-  }
-  parallel_sort(faces.begin(), faces.end(), [](const TetFace& a, const TetFace& b) {
-    return std::tie(a.corners, a.slot) < std::tie(b.corners, b.slot);
+  std::vector<std::uint8_t> is_valid(mesh.tets.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) is_valid[t] = is_valid_tet(mesh.tets[t], mesh.vertices.size());
+  Groups<TetFace> by_lowest(mesh.vertices.size(), [&](const auto& put) {
+    for (std::uint64_t slot = 0; slot < 4 * mesh.tets.size(); ++slot) {
+      if (!is_valid[slot / 4]) continue;
+      TetFace face{face_of(mesh, slot), slot};
+      auto& [a, b, c] = face.corners;
+      if (a > b) std::swap(a, b);
+      if (b > c) std::swap(b, c);
+      if (a > b) std::swap(a, b);
+      put(a, face);
+    }
   });
-  return faces;
+  for (std::size_t v = 0; v < by_lowest.size(); ++v) {
+    std::sort(by_lowest[v].begin(), by_lowest[v].end(), [](const TetFace& a, const TetFace& b) {
+      return std::tie(a.corners[1], a.corners[2], a.slot) < std::tie(b.corners[1], b.corners[2], b.slot);
+    });
+  }
+  return std::move(by_lowest).items();
 }
 
 std::size_t face_run_end(const std::vector<TetFace>& faces, std::size_t begin) {

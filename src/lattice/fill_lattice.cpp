@@ -5,7 +5,9 @@
 #include "base/bits.h"
 #include "base/require.h"
 #include "base/tet_geometry.h"
+#include "lattice/inside_blocks.h"
 #include "lattice/kept_cells.h"
+#include "lattice/lattice_vertices.h"
 
 namespace tetsoup {
 namespace {
@@ -59,34 +61,53 @@ bool holds_together(const KeptCells& kept) {
   return beside > 0 && 2 * beside >= kept.tet_count;
 }
 
-/// Share of the inside voxels whose six neighbours are inside too.
-double core_share(const BitGrid& inside) {
-  const std::size_t words = inside.words_per_row;
+struct CoreCounts {
   std::size_t all = 0, core = 0;
-  for (int z = 0; z < inside.frame.size[2]; ++z) {
-    for (int y = 0; y < inside.frame.size[1]; ++y) {
-      const auto row = [&](int dy, int dz) -> const std::uint64_t* {
-        const bool within =
-            y + dy >= 0 && z + dz >= 0 && y + dy < inside.frame.size[1] && z + dz < inside.frame.size[2];
-        return within ? inside.words.data() + inside.row(y + dy, z + dz) : nullptr;
-      };
-      const std::uint64_t* here = row(0, 0);
-      for (std::size_t w = 0; w < words; ++w) {
-        if (here[w] == 0) continue;
-        std::uint64_t bits = here[w] & shifted_up(here, w) & shifted_down(here, w, words);
-        for (const std::uint64_t* other : {row(-1, 0), row(1, 0), row(0, -1), row(0, 1)}) bits &= other ? other[w] : 0;
-        all += static_cast<std::size_t>(std::popcount(here[w]));
-        core += static_cast<std::size_t>(std::popcount(bits));
-      }
+  CoreCounts& operator+=(const CoreCounts& other) {
+    all += other.all;
+    core += other.core;
+    return *this;
+  }
+};
+
+/// Inside voxels of a layer, and those of them whose six neighbours are inside too.
+CoreCounts count_core(const BitGrid& inside, int z) {
+  const std::size_t words = inside.words_per_row;
+  CoreCounts counts;
+  for (int y = 0; y < inside.frame.size[1]; ++y) {
+    const auto row = [&](int dy, int dz) -> const std::uint64_t* {
+      const bool within = y + dy >= 0 && z + dz >= 0 && y + dy < inside.frame.size[1] && z + dz < inside.frame.size[2];
+      return within ? inside.words.data() + inside.row(y + dy, z + dz) : nullptr;
+    };
+    const std::uint64_t* here = row(0, 0);
+    const std::array beside{row(-1, 0), row(1, 0), row(0, -1), row(0, 1)};
+    for (std::size_t w = 0; w < words; ++w) {
+      if (here[w] == 0) continue;
+      std::uint64_t bits = here[w] & shifted_up(here, w) & shifted_down(here, w, words);
+      for (const std::uint64_t* other : beside) bits &= other ? other[w] : 0;
+      counts.all += bit_count(here[w]);
+      counts.core += bit_count(bits);
     }
   }
-  return all == 0 ? 0 : static_cast<double>(core) / static_cast<double>(all);
+  return counts;
+}
+
+double core_share(const BitGrid& inside, StageWatch& watch) {
+  const auto counts = parallel_sum<CoreCounts>(inside.frame.size[2], 1, watch, [&](std::int64_t z, std::int64_t) {
+    return count_core(inside, static_cast<int>(z));
+  });
+  return counts.all == 0 ? 0 : static_cast<double>(counts.core) / static_cast<double>(counts.all);
 }
 
 class Filler {
  public:
   Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options, StageWatch& watch)
-      : volume_(volume), soup_(soup), options_(options), watch_(watch), grid_(volume.inside.frame) {}
+      : volume_(volume),
+        soup_(soup),
+        options_(options),
+        watch_(watch),
+        grid_(volume.inside.frame),
+        inside_(volume.inside, watch) {}
 
   /// The edge is raised where single precision cannot hold so fine a lattice, as the voxels' edge is.
   Fill with_cells(int cells) { return fill(std::max(longest_edge(grid_box(grid_)) / cells, finest_cell_size(grid_))); }
@@ -112,7 +133,7 @@ class Filler {
  private:
   bool has_volume() const {
     return volume_.report.inside_voxels > 0 && volume_.report.soup_covered >= kLeastCovered &&
-           core_share(volume_.inside) >= kLeastCore;
+           core_share(volume_.inside, watch_) >= kLeastCore;
   }
   Fill fill(double cell_size) {
     Fill dense;
@@ -121,7 +142,7 @@ class Filler {
   }
   Fill try_density(double cell_size) {
     Fill fill{make_checked_frame(cell_size), {}, false};
-    fill.kept = keep_dense_tets(volume_.inside, fill.frame, options_.rho_min, watch_);
+    fill.kept = keep_dense_tets(inside_, fill.frame, options_.rho_min, watch_);
     return fill;
   }
   Fill try_soup(double cell_size) {
@@ -192,41 +213,34 @@ class Filler {
   const LatticeOptions& options_;
   StageWatch& watch_;
   const GridFrame& grid_;
+  InsideBlocks inside_;
 };
 
 /// Vertices in lattice order, tets by cell and then by number.
 TetMesh make_mesh(const Fill& fill) {
   TETSOUP_ASSERT(!fill.kept.cells.empty());  // a finite triangle always touches a tet
-  const LatticeFrame& frame = fill.frame;
-  Cell lo = fill.kept.cells.front().cell;
-  for (const KeptCell& k : fill.kept.cells)
-    for (std::size_t i = 0; i < 3; ++i) lo[i] = std::min(lo[i], k.cell[i]);
-  const auto key = [&](const Cell& cell, unsigned corner) {  // 21 bits an axis, z highest
-    const auto at = [&](std::size_t i) { return static_cast<std::uint64_t>(cell[i] - lo[i]) + (corner >> i & 1U); };
-    return at(2) << 42 | at(1) << 21 | at(0);
+  const auto for_each_corner = [&](const auto& visit) {
+    for (const KeptCell& k : fill.kept.cells)
+      for (std::size_t t = 0; t < kTetsPerCell; ++t)
+        if (k.tets >> t & 1U)
+          for (const unsigned corner : tet_corners(t, is_odd(k.cell))) visit(k.cell, corner);
   };
-
-  std::vector<std::uint64_t> names;
-  names.reserve(4 * fill.kept.tet_count);
-  for (const KeptCell& k : fill.kept.cells)
-    for (std::size_t t = 0; t < kTetsPerCell; ++t)
-      if (k.tets >> t & 1U)
-        for (const unsigned corner : tet_corners(t, is_odd(k.cell))) names.push_back(key(k.cell, corner));
-
-  std::vector<std::uint64_t> vertices = names;
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  LatticeVertices vertices(fill.kept.cells);
+  for_each_corner([&](const Cell& cell, unsigned corner) { vertices.add(cell, corner); });
+  vertices.give_numbers();
 
   TetMesh mesh;
-  for (const std::uint64_t v : vertices) {
-    constexpr std::uint64_t kMask = (1U << 21) - 1;
-    const auto at = [&](std::size_t i) { return static_cast<double>(static_cast<int>(v >> (21 * i) & kMask) + lo[i]); };
-    mesh.vertices.push_back(to_float(frame.to_point({at(0), at(1), at(2)})));
-  }
+  mesh.vertices.reserve(vertices.count());
+  vertices.for_each([&](const Cell& at) {
+    mesh.vertices.push_back(to_float(
+        fill.frame.to_point({static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])})));
+  });
   mesh.tets.resize(fill.kept.tet_count);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    mesh.tets[i / 4][i % 4] =
-        static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), names[i]) - vertices.begin());
+  std::size_t i = 0;
+  for_each_corner([&](const Cell& cell, unsigned corner) {
+    mesh.tets[i / 4][i % 4] = vertices.number(cell, corner);
+    ++i;
+  });
   return mesh;
 }
 

@@ -6,8 +6,8 @@
 
 #include "base/parallel.h"
 #include "lattice/five_tets.h"
+#include "lattice/inside_blocks.h"
 #include "lattice/lattice_frame.h"
-#include "tetsoup/pseudo_volume.h"
 #include "tetsoup/soup.h"
 
 namespace tetsoup {
@@ -25,7 +25,7 @@ struct KeptCells {
 };
 
 /// Keeps the tets whose density is at least rho_min [Spillmann06 §4].
-KeptCells keep_dense_tets(const BitGrid& inside, const LatticeFrame& frame, double rho_min, StageWatch& watch);
+KeptCells keep_dense_tets(const InsideBlocks& inside, const LatticeFrame& frame, double rho_min, StageWatch& watch);
 
 /// Keeps the tets that the soup passes through or touches.
 KeptCells keep_crossed_tets(const CleanSoup& soup, const LatticeFrame& frame, StageWatch& watch);

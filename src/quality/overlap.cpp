@@ -1,10 +1,10 @@
 // Intersection over union: the tets are drawn into the voxel grid layer by layer, a row of voxels at a time.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "base/bits.h"
 #include "base/parallel.h"
 #include "base/tet_faces.h"
 #include "base/tet_geometry.h"
@@ -144,22 +144,33 @@ std::vector<std::vector<std::uint32_t>> tets_of_slabs(const std::vector<DrawnTet
 }
 
 struct Overlap {
-  std::size_t both = 0, either = 0;
+  std::size_t in_mesh = 0, in_both = 0;
+  Overlap& operator+=(const Overlap& other) {
+    in_mesh += other.in_mesh;
+    in_both += other.in_both;
+    return *this;
+  }
 };
 
-Overlap count_layer(const std::vector<std::uint64_t>& layer, int z, const Canvas& canvas, const BitGrid& inside) {
+/// One layer of voxels, of which only the rows [first, last] are in use.
+struct Layer {
+  std::vector<std::uint64_t> words;
+  int first = 0, last = -1;
+};
+
+/// Counts the layer's voxels and clears it.
+Overlap count_layer(Layer& layer, int z, const Canvas& canvas, const BitGrid& inside) {
   Overlap overlap;
-  const bool in_grid_z = z >= 0 && z < inside.frame.size[2];
-  for (std::size_t r = 0; r < canvas.rows(); ++r) {
-    const int y = canvas.lo[1] + static_cast<int>(r);
-    const bool in_grid = in_grid_z && y >= 0 && y < inside.frame.size[1];
+  for (int y = layer.first; y <= layer.last; ++y) {
+    const bool in_grid = z >= 0 && z < inside.frame.size[2] && y >= 0 && y < inside.frame.size[1];
     const std::uint64_t* voxels = in_grid ? inside.words.data() + inside.row(y, z) : nullptr;
+    std::uint64_t* row = layer.words.data() + static_cast<std::size_t>(y - canvas.lo[1]) * canvas.words_per_row;
     for (std::size_t w = 0; w < canvas.words_per_row; ++w) {
+      if (row[w] == 0) continue;
       const std::size_t from = w - canvas.lead_words();
       const std::uint64_t is_inside = in_grid && from < inside.words_per_row ? voxels[from] : 0;
-      const std::uint64_t in_mesh = layer[r * canvas.words_per_row + w];
-      overlap.both += static_cast<std::size_t>(std::popcount(in_mesh & is_inside));
-      overlap.either += static_cast<std::size_t>(std::popcount(in_mesh | is_inside));
+      overlap += {bit_count(row[w]), bit_count(row[w] & is_inside)};
+      row[w] = 0;
     }
   }
   return overlap;
@@ -168,23 +179,35 @@ Overlap count_layer(const std::vector<std::uint64_t>& layer, int z, const Canvas
 Overlap count_slab(int slab, const std::vector<std::uint32_t>& tets, const std::vector<DrawnTet>& drawn,
                    const Canvas& canvas, const BitGrid& inside) {
   Overlap sum;
-  std::vector<std::uint64_t> layer(canvas.rows() * canvas.words_per_row);
+  Layer layer{std::vector<std::uint64_t>(canvas.rows() * canvas.words_per_row)};
   const int first = canvas.lo[2] + slab * kSlabLayers;
   for (int z = first; z < first + kSlabLayers && z <= canvas.hi[2]; ++z) {
-    std::fill(layer.begin(), layer.end(), 0);
+    layer.first = canvas.hi[1];
+    layer.last = canvas.lo[1];
     for (const std::uint32_t t : tets) {
       const VoxelBox& box = drawn[t].box;
       if (z < box.lo[2] || z > box.hi[2]) continue;
+      layer.first = std::min(layer.first, box.lo[1]);
+      layer.last = std::max(layer.last, box.hi[1]);
       for (int y = box.lo[1]; y <= box.hi[1]; ++y) {
         draw_row(drawn[t], y, z, canvas,
-                 layer.data() + static_cast<std::size_t>(y - canvas.lo[1]) * canvas.words_per_row);
+                 layer.words.data() + static_cast<std::size_t>(y - canvas.lo[1]) * canvas.words_per_row);
       }
     }
-    const Overlap one = count_layer(layer, z, canvas, inside);
-    sum.both += one.both;
-    sum.either += one.either;
+    sum += count_layer(layer, z, canvas, inside);
   }
   return sum;
+}
+
+std::size_t count_inside(const BitGrid& inside, StageWatch& watch) {
+  constexpr std::int64_t kGrain = 1 << 15;  // words
+  const auto count = [&](std::int64_t begin, std::int64_t end) {
+    std::size_t sum = 0;
+    for (auto w = static_cast<std::size_t>(begin); w < static_cast<std::size_t>(end); ++w)
+      if (inside.words[w] != 0) sum += bit_count(inside.words[w]);
+    return sum;
+  };
+  return parallel_sum<std::size_t>(static_cast<std::int64_t>(inside.words.size()), kGrain, watch, count);
 }
 
 }  // namespace
@@ -197,17 +220,14 @@ double intersection_over_union(const TetMesh& mesh, const BitGrid& inside) {
   drawn.reserve(tets.size());
   for (const TetCorners& tet : tets) drawn.push_back(prepare(tet, canvas));
   const auto slabs = tets_of_slabs(drawn, canvas);
-  std::vector<Overlap> overlaps(slabs.size());
   const Progress nobody;
   StageWatch watch(nobody, "quality");
-  parallel_for(static_cast<std::int64_t>(slabs.size()), 1, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s) {
-      overlaps[s] = count_slab(static_cast<int>(s), slabs[s], drawn, canvas, inside);
-    }
-  });
-  Overlap sum;
-  for (const Overlap& overlap : overlaps) sum.both += overlap.both, sum.either += overlap.either;
-  return sum.either == 0 ? 1 : static_cast<double>(sum.both) / static_cast<double>(sum.either);
+  const auto sum =
+      parallel_sum<Overlap>(static_cast<std::int64_t>(slabs.size()), 1, watch, [&](std::int64_t s, std::int64_t) {
+        return count_slab(static_cast<int>(s), slabs[static_cast<std::size_t>(s)], drawn, canvas, inside);
+      });
+  const std::size_t in_either = sum.in_mesh + count_inside(inside, watch) - sum.in_both;
+  return in_either == 0 ? 1 : static_cast<double>(sum.in_both) / static_cast<double>(in_either);
 }
 
 }  // namespace tetsoup

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "base/parallel.h"
+#include "base/groups.h"
 #include "base/tet_faces.h"
 
 namespace tetsoup {
@@ -14,7 +14,10 @@ namespace {
 /// Disjoint sets; the smallest member represents its set.
 class Unions {
  public:
-  explicit Unions(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit Unions(std::size_t count) {
+    parent_.resize(count);
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
   std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -35,21 +38,24 @@ struct Side {
   std::size_t low_corner, high_corner;
 };
 
-std::vector<Side> sorted_sides(const std::vector<Triangle>& triangles) {
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      Side side{triangles[t][i], triangles[t][j], 3 * t + i, 3 * t + j};
-      if (side.low > side.high) side = {side.high, side.low, side.high_corner, side.low_corner};
-      sides.push_back(side);
+/// Of the boundary triangles, by their ends.
+std::vector<Side> sorted_sides(std::size_t vertex_count, const std::vector<Triangle>& triangles) {
+  Groups<Side> by_low(vertex_count, [&](const auto& put) {
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        Side side{triangles[t][i], triangles[t][j], 3 * t + i, 3 * t + j};
+        if (side.low > side.high) side = {side.high, side.low, side.high_corner, side.low_corner};
+        put(side.low, side);
+      }
     }
-  }
-  parallel_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.low_corner) < std::tie(b.low, b.high, b.low_corner);
   });
-  return sides;
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    std::sort(by_low[v].begin(), by_low[v].end(), [](const Side& a, const Side& b) {
+      return std::tie(a.high, a.low_corner) < std::tie(b.high, b.low_corner);
+    });
+  }
+  return std::move(by_low).items();
 }
 
 std::size_t count_components(const TetMesh& mesh, const std::vector<TetFace>& faces) {
@@ -76,7 +82,7 @@ bool any_face_has_three_tets(const std::vector<TetFace>& faces) {
 void measure_boundary(std::size_t vertex_count, const std::vector<Triangle>& triangles, Quality& quality) {
   Unions corners(3 * triangles.size());
   std::vector<char> has_bad_side(vertex_count, 0);
-  const std::vector<Side> sides = sorted_sides(triangles);
+  const std::vector<Side> sides = sorted_sides(vertex_count, triangles);
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     const auto [low, high, low_corner, high_corner] = sides[begin];
     for (end = begin + 1; end < sides.size() && sides[end].low == low && sides[end].high == high; ++end) {

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "base/parallel.h"
 #include "base/vec.h"
 #include "soup/diagnose.h"
+#include "soup/merge_vertices.h"
 #include "tetsoup/soup.h"
 
 namespace tetsoup {
@@ -13,21 +12,11 @@ namespace {
 
 /// Coordinates beyond this count as non-finite: their squares and the space around them must fit in the arithmetic.
 constexpr float kLargestCoordinate = 1e30F;
+constexpr std::int64_t kGrain = 4096;  ///< Vertices or triangles in a chunk.
 
 bool is_usable(const Vec3& v) {
   return std::abs(v.x) <= kLargestCoordinate && std::abs(v.y) <= kLargestCoordinate &&
          std::abs(v.z) <= kLargestCoordinate;  // false for NaN
-}
-
-bool less_by_position(const Vec3& a, const Vec3& b) {
-  if (a.x != b.x) return a.x < b.x;
-  if (a.y != b.y) return a.y < b.y;
-  return a.z < b.z;
-}
-
-/// -0 becomes +0, so that equal positions are equal bits.
-Vec3 without_negative_zero(const Vec3& v) {
-  return {v.x + 0.0F, v.y + 0.0F, v.z + 0.0F};
 }
 
 std::vector<Triangle> usable_triangles(const TriangleSoup& soup, SoupReport& report) {
@@ -49,37 +38,52 @@ std::vector<Triangle> usable_triangles(const TriangleSoup& soup, SoupReport& rep
   return kept;
 }
 
-/// Distinct positions of the triangles' vertices in lexicographic order; the triangles' indices are renamed to match.
-std::vector<Vec3> merge_vertices(const std::vector<Vec3>& vertices, std::vector<Triangle>& triangles) {
-  std::vector<std::uint8_t> used(vertices.size());
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) used[v] = 1;
-  struct Entry {
-    Vec3 position;
-    std::uint32_t index;
-  };
-  std::vector<Entry> order;
-  for (std::uint32_t i = 0; i < vertices.size(); ++i)
-    if (used[i]) order.push_back({without_negative_zero(vertices[i]), i});
-  parallel_sort(order.begin(), order.end(), [](const Entry& a, const Entry& b) {
-    if (a.position == b.position) return a.index < b.index;
-    return less_by_position(a.position, b.position);
+OrderedTriangles ordered_triangles(std::size_t vertex_count, const std::vector<Triangle>& triangles,
+                                   StageWatch& watch) {
+  OrderedTriangles ordered(vertex_count, [&](const auto& put) {
+    for (auto [a, b, c] : triangles) {
+      bool turned = false;
+      const auto swap_if_above = [&](std::uint32_t& low, std::uint32_t& high) {
+        if (low <= high) return;
+        std::swap(low, high);
+        turned = !turned;
+      };
+      swap_if_above(a, b);
+      swap_if_above(b, c);
+      swap_if_above(a, b);
+      put(a, RestOfTriangle{b, c, turned});
+    }
   });
+  parallel_for(static_cast<std::int64_t>(vertex_count), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v)
+      std::sort(ordered[v].begin(), ordered[v].end());
+  });
+  return ordered;
+}
 
-  std::vector<Vec3> merged;
-  std::vector<std::uint32_t> name(vertices.size());
-  for (const Entry& e : order) {
-    if (merged.empty() || !(merged.back() == e.position)) merged.push_back(e.position);
-    name[e.index] = static_cast<std::uint32_t>(merged.size() - 1);
+std::vector<Triangle> without_duplicates(const OrderedTriangles& ordered) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(ordered.items().size());
+  for (std::uint32_t low = 0; low < ordered.size(); ++low) {
+    for (const RestOfTriangle& t : ordered[low]) {
+      const Triangle triangle{low, t.middle, t.high};
+      if (triangles.empty() || triangles.back() != triangle) triangles.push_back(triangle);
+    }
   }
-  for (Triangle& t : triangles)
-    for (std::uint32_t& v : t) v = name[v];
-  return merged;
+  return triangles;
 }
 
 bool has_no_area(const std::vector<Vec3>& vertices, const Triangle& t) {
   const Vec3d a = to_double(vertices[t[0]]);
   return cross(to_double(vertices[t[1]]) - a, to_double(vertices[t[2]]) - a) == Vec3d{0, 0, 0};
+}
+
+std::size_t count_without_area(const TriangleSoup& soup, StageWatch& watch) {
+  const auto count = [&](std::int64_t begin, std::int64_t end) {
+    return static_cast<std::size_t>(std::count_if(soup.triangles.begin() + begin, soup.triangles.begin() + end,
+                                                  [&](const Triangle& t) { return has_no_area(soup.vertices, t); }));
+  };
+  return parallel_sum<std::size_t>(static_cast<std::int64_t>(soup.triangles.size()), kGrain, watch, count);
 }
 
 Box3 box_of(const std::vector<Vec3>& vertices) {
@@ -104,24 +108,18 @@ CleanSoup clean_soup(const TriangleSoup& soup, const Progress& progress) {
   std::vector<Triangle> triangles = usable_triangles(soup, report);
   watch.step(0.1);
   clean.soup.vertices = merge_vertices(soup.vertices, triangles);
-  watch.step(0.4);
-  diagnose(clean.soup.vertices.size(), triangles, report);
-  watch.step(0.7);
+  watch.enter_part(0.4, 0.6);
+  const OrderedTriangles ordered = ordered_triangles(clean.soup.vertices.size(), triangles, watch);
+  watch.enter_part(0.6, 0.9);
+  diagnose(ordered, report, watch);
 
-  for (Triangle& t : triangles) std::sort(t.begin(), t.end());
-  parallel_sort(triangles.begin(), triangles.end(), std::less<>());
-  const auto last = std::unique(triangles.begin(), triangles.end());
-  report.duplicates = static_cast<std::size_t>(triangles.end() - last);
-  triangles.erase(last, triangles.end());
-  clean.soup.triangles = std::move(triangles);
-
-  report.zero_area =
-      static_cast<std::size_t>(std::count_if(clean.soup.triangles.begin(), clean.soup.triangles.end(),
-                                             [&](const Triangle& t) { return has_no_area(clean.soup.vertices, t); }));
+  clean.soup.triangles = without_duplicates(ordered);
+  report.duplicates = triangles.size() - clean.soup.triangles.size();
+  watch.enter_part(0.9, 1);
+  report.zero_area = count_without_area(clean.soup, watch);
   report.used_triangles = clean.soup.triangles.size();
   report.merged_vertices = clean.soup.vertices.size();
   report.box = box_of(clean.soup.vertices);
-  watch.step(1);
   return clean;
 }
 

@@ -1,0 +1,76 @@
+#include "soup/merge_vertices.h"
+
+#include <bit>
+#include <tuple>
+
+#include "base/radix_sort.h"
+
+namespace tetsoup {
+namespace {
+
+/// Below this many entries comparing is faster than counting digits.
+constexpr std::size_t kFewEntries = 256;
+
+struct Entry {
+  std::uint32_t key;  ///< One coordinate, so that whole numbers are in the order of the coordinates.
+  std::uint32_t index;
+};
+
+/// -0 becomes +0, so that equal positions are equal bits.
+Vec3 without_negative_zero(const Vec3& v) {
+  return {v.x + 0.0F, v.y + 0.0F, v.z + 0.0F};
+}
+
+std::uint32_t ordered_bits(float coordinate) {
+  constexpr std::uint32_t kSign = 0x80000000U;
+  const auto bits = std::bit_cast<std::uint32_t>(coordinate + 0.0F);
+  return (bits & kSign) != 0 ? ~bits : bits | kSign;
+}
+
+/// Sorts entries by position; those given share the coordinates of the axes before `axis`.
+void sort_by_position(std::span<Entry> entries, std::span<Entry> scratch, const std::vector<Vec3>& vertices,
+                      std::size_t axis) {
+  constexpr std::array<float Vec3::*, 3> kAxes{&Vec3::x, &Vec3::y, &Vec3::z};
+  if (axis == kAxes.size() || entries.size() < 2) return;
+  if (entries.size() < kFewEntries) {
+    std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+      const Vec3 &p = vertices[a.index], &q = vertices[b.index];
+      return std::tie(p.x, p.y, p.z, a.index) < std::tie(q.x, q.y, q.z, b.index);
+    });
+    return;
+  }
+  for (Entry& e : entries) e.key = ordered_bits(vertices[e.index].*kAxes[axis]);
+  radix_sort(entries, scratch);
+  for (std::size_t begin = 0, end = 0; begin < entries.size(); begin = end) {
+    while (end < entries.size() && entries[end].key == entries[begin].key) ++end;
+    sort_by_position(entries.subspan(begin, end - begin), scratch.subspan(begin, end - begin), vertices, axis + 1);
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3> merge_vertices(const std::vector<Vec3>& vertices, std::vector<Triangle>& triangles) {
+  std::vector<std::uint8_t> used(vertices.size());
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) used[v] = 1;
+  std::vector<Entry> order;
+  order.reserve(vertices.size());
+  for (std::uint32_t i = 0; i < vertices.size(); ++i)
+    if (used[i]) order.push_back({0, i});
+  std::vector<Entry> scratch(order.size());
+  sort_by_position(order, scratch, vertices, 0);
+
+  std::vector<Vec3> merged;
+  merged.reserve(order.size());
+  std::vector<std::uint32_t> name(vertices.size());
+  for (const Entry& e : order) {
+    const Vec3 position = without_negative_zero(vertices[e.index]);
+    if (merged.empty() || !(merged.back() == position)) merged.push_back(position);
+    name[e.index] = static_cast<std::uint32_t>(merged.size() - 1);
+  }
+  for (Triangle& t : triangles)
+    for (std::uint32_t& v : t) v = name[v];
+  return merged;
+}
+
+}  // namespace tetsoup
