@@ -3,6 +3,7 @@
 
 #include "base/bits.h"
 #include "base/block_grid.h"
+#include "distance/far_field.h"
 #include "distance/farthest_voxel.h"
 #include "distance/scan_conversion.h"
 #include "distance/triangle_tree.h"
@@ -26,15 +27,15 @@ float to_length(float square, float band_squared, float voxel_size) {
   return square < band_squared ? std::sqrt(square) * voxel_size : kInfinity;
 }
 
-/// The largest value over the unpadded box; searched by the tree only if some voxel there is not known yet.
-float farthest_distance(const BlockGrid& distance, const TriangleTree& tree, StageWatch& watch) {
+/// The largest value over the unpadded box; searched by the tree unless the band holds all of the box.
+float farthest_distance(const BlockGrid& distance, double band, const TriangleTree& tree, StageWatch& watch) {
   const GridFrame& frame = distance.frame;
   float largest = 0;
-  for (int z = frame.pad; z < frame.size[2] - frame.pad && largest < kInfinity; ++z)
+  for (int z = frame.pad; z < frame.size[2] - frame.pad && !std::isinf(band) && largest < kInfinity; ++z)
     for (int y = frame.pad; y < frame.size[1] - frame.pad && largest < kInfinity; ++y)
       for (int x = frame.pad; x < frame.size[0] - frame.pad && largest < kInfinity; ++x)
         largest = std::max(largest, distance.at(x, y, z));
-  if (largest < kInfinity) return largest;
+  if (!std::isinf(band) && largest < kInfinity) return largest;
   return std::sqrt(farthest_voxel_squared(tree, frame, watch)) * static_cast<float>(frame.voxel_size);
 }
 
@@ -74,7 +75,7 @@ class RowFiller {
     const auto fy = static_cast<float>(y), fz = static_cast<float>(z);
     float bound = band_squared_;
     for (int x = 0; x < nx; ++x) {
-      if (!wanted_.words.empty() && !wanted_.test(x, y, z)) {
+      if (!wanted_.test(x, y, z)) {
         bound = band_squared_;
         continue;
       }
@@ -94,10 +95,8 @@ class RowFiller {
 /// The field with its unknown voxels within the band asked from the tree.
 BlockGrid filled(const BlockGrid& distance, const TriangleTree& tree, double known_voxels, double band_voxels,
                  StageWatch& watch) {
-  constexpr double kLocal = 16;  // voxels; a band that grows by more reaches most of the grid anyway
   const GridFrame& frame = distance.frame;
-  const bool local = band_voxels - known_voxels < kLocal;
-  const BitGrid wanted = local ? reachable(distance, known_voxels, band_voxels, watch) : BitGrid{};
+  const BitGrid wanted = reachable(distance, known_voxels, band_voxels, watch);
   const RowFiller filler(tree, wanted, band_voxels, frame.voxel_size);
   const std::size_t stride = distance.blocks_per_row * BlockGrid::kBlock;
   BlockGrid out = make_block_grid(frame);
@@ -116,6 +115,22 @@ BlockGrid filled(const BlockGrid& distance, const TriangleTree& tree, double kno
   return out;
 }
 
+/// Fills the grid up to `band` voxels, by the way that suits it. The result does not depend on what is known before.
+BlockGrid measure(const SoupFeatures& features, const GridFrame& frame, double band, const TriangleTree* tree,
+                  StageWatch& watch) {
+  if (std::isinf(band)) {
+    watch.enter_part(0.1, 0.2);
+    const BlockGrid near = scan_convert(features, frame, static_cast<float>(kFarField), watch);
+    watch.enter_part(0.2, 1);
+    return fill_far_field(near, features, watch);
+  }
+  watch.enter_part(0.1, band > kScanBand ? 0.2 : 0.8);
+  BlockGrid near = scan_convert(features, frame, static_cast<float>(std::min(band, kScanBand)), watch);
+  if (band <= kScanBand) return near;
+  watch.enter_part(0.2, 1);
+  return filled(near, tree ? *tree : TriangleTree(features, watch), kScanBand, band, watch);
+}
+
 }  // namespace
 
 DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& options, const Progress& progress) {
@@ -123,35 +138,24 @@ DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& op
   StageWatch watch(progress, "distance");
   const double band =
       options.mode == DistanceMode::Full ? std::numeric_limits<double>::infinity() : options.band_voxels;
-  const double scanned = std::min(band, options.mode == DistanceMode::Full ? 4 : kScanBand);
   watch.enter_part(0, 0.1);
   const SoupFeatures features = find_features(soup, frame, watch);
-  watch.enter_part(0.1, band > scanned ? 0.2 : 0.8);
-  DistanceField field;
-  field.distance = scan_convert(features, frame, static_cast<float>(scanned), watch);
-  watch.enter_part(band > scanned ? 0.2 : 0.8, 1);
   const TriangleTree tree(features, watch);
-  field.d_max = static_cast<double>(farthest_distance(field.distance, tree, watch));
-  if (band > scanned) field.distance = filled(field.distance, tree, scanned, band, watch);
+  DistanceField field;
+  field.distance = measure(features, frame, band, &tree, watch);
+  field.d_max = static_cast<double>(farthest_distance(field.distance, band, tree, watch));
   field.band = band * frame.voxel_size;
   return field;
 }
 
 void widen_distance(DistanceField& field, const CleanSoup& soup, double band_voxels, const Progress& progress) {
-  const GridFrame& frame = field.distance.frame;
-  const double known = field.band / frame.voxel_size;
+  const GridFrame frame = field.distance.frame;
   if (band_voxels * frame.voxel_size <= field.band) return;
   StageWatch watch(progress, "distance");
   watch.enter_part(0, 0.1);
   const SoupFeatures features = find_features(soup, frame, watch);
-  watch.enter_part(0.1, 1);
-  if (band_voxels <= kScanBand) {
-    field.distance = scan_convert(features, frame, static_cast<float>(band_voxels), watch);
-  } else {
-    const TriangleTree tree(features, watch);
-    field.distance = filled(field.distance, tree, known, band_voxels, watch);
-  }
-  field.band = band_voxels * field.distance.frame.voxel_size;
+  field.distance = measure(features, frame, band_voxels, nullptr, watch);
+  field.band = band_voxels * frame.voxel_size;
 }
 
 }  // namespace tetsoup
