@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "base/bits.h"
-#include "tetsoup/distance.h"
 
 namespace tetsoup {
 namespace {
@@ -50,21 +49,6 @@ void load_slab(const BlockGrid& grid, std::size_t slab, std::span<float> values)
   for (std::size_t i = 0; i < places.size(); ++i)
     std::copy_n(stored.begin() + static_cast<std::ptrdiff_t>(kBlock * places[i]), kBlock,
                 values.begin() + static_cast<std::ptrdiff_t>(kBlock * i));
-}
-
-Grid<float> dense(const BlockGrid& blocks) {
-  const auto [nx, ny, nz] = blocks.frame.size;
-  Grid<float> grid{blocks.frame, {}};
-  grid.values.reserve(blocks.frame.voxel_count());
-  for (int z = 0; z < nz; ++z) {
-    for (int y = 0; y < ny; ++y) {
-      for (int x = 0; x < nx; x += BlockGrid::kBlock) {
-        const float* block = blocks.block(static_cast<std::size_t>(x / BlockGrid::kBlock), y, z);
-        grid.values.insert(grid.values.end(), block, block + std::min(BlockGrid::kBlock, nx - x));
-      }
-    }
-  }
-  return grid;
 }
 
 }  // namespace tetsoup

@@ -35,8 +35,8 @@ class SlabFiller {
         for (int y = at[1]; y < at[1] + kernel::kBrick; ++y) {
           for (int x = at[0]; x < at[0] + kernel::kBrick; ++x, ++i) {
             if (!frame_.contains(x, y, z)) continue;
-            float& value =
-                slab[static_cast<std::size_t>((z - z_begin) * frame_.size[1] + y) * stride_ + static_cast<std::size_t>(x)];
+            float& value = slab[static_cast<std::size_t>((z - z_begin) * frame_.size[1] + y) * stride_ +
+                                static_cast<std::size_t>(x)];
             if (std::isinf(value)) body(value, squares[i]);
           }
         }

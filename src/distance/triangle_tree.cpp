@@ -15,15 +15,13 @@ constexpr int kMaxDepth = 96;  ///< 48 bits of the code, then halves of what sha
 constexpr float kSlack = 1.0F + 0x1p-14F;
 constexpr float kSlackAbsolute = 1e-6F;  // voxels squared
 
-
 }  // namespace
 
 TriangleTree::TriangleTree(const SoupFeatures& features, StageWatch& watch) : features_(features) {
   const std::size_t count = features.triangles.size();
   std::vector<MortonEntry> sorted(count);
   parallel_for(static_cast<std::int64_t>(count), 8192, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       const auto [a, b, c] = features.triangles[i];
       const Vec3 &p = features.corners[a], &q = features.corners[b], &r = features.corners[c];
       const Vec3 centre{(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3, (p.z + q.z + r.z) / 3};
@@ -42,7 +40,12 @@ TriangleTree::TriangleTree(const SoupFeatures& features, StageWatch& watch) : fe
 std::uint32_t TriangleTree::build(const std::vector<MortonEntry>& sorted, std::uint32_t begin, std::uint32_t end) {
   const auto self = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({features_.corners[features_.triangles[order_[begin]][0]],
-                    features_.corners[features_.triangles[order_[begin]][0]], {}, -kernel::kBeyond, kernel::kBeyond, begin, end - begin});
+                    features_.corners[features_.triangles[order_[begin]][0]],
+                    {},
+                    -kernel::kBeyond,
+                    kernel::kBeyond,
+                    begin,
+                    end - begin});
   if (end - begin <= kLeafSize) {
     Node& leaf = nodes_[self];
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -56,7 +59,13 @@ std::uint32_t TriangleTree::build(const std::vector<MortonEntry>& sorted, std::u
   }
   const std::uint32_t middle = morton_split(sorted, begin, end);
   const std::uint32_t first = build(sorted, begin, middle), second = build(sorted, middle, end);
-  nodes_[self] = {min(nodes_[first].lo, nodes_[second].lo), max(nodes_[first].hi, nodes_[second].hi), {}, -kernel::kBeyond, kernel::kBeyond, second, 0};
+  nodes_[self] = {min(nodes_[first].lo, nodes_[second].lo),
+                  max(nodes_[first].hi, nodes_[second].hi),
+                  {},
+                  -kernel::kBeyond,
+                  kernel::kBeyond,
+                  second,
+                  0};
   if (end - begin <= kSlabTriangles) fit_slab(nodes_[self], begin, end);
   return self;
 }
@@ -112,7 +121,7 @@ float TriangleTree::nearest_squared(float x, float y, float z, float bound) cons
   std::array<Pending, kMaxDepth> stack;
   std::size_t depth = 0;
   float best = bound;
-  const auto look = [&](std::uint32_t node) {  return Pending{node, squared_distance(nodes_[node], x, y, z)}; };
+  const auto look = [&](std::uint32_t node) { return Pending{node, squared_distance(nodes_[node], x, y, z)}; };
   Pending at = look(0);
   for (;;) {
     if (at.square <= best * kSlack + kSlackAbsolute) {

@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tetsoup::kernel::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kVoxels = kBrick * kBrick * kBrick;
+constexpr std::size_t kLayer = kBrick * kBrick;
 /// A node is skipped only if it is farther than the best by more than rounding, so that no nearest is lost.
 constexpr float kSlack = 1.0F + 0x1p-14F;
 using Lanes = hn::CappedTag<float, 16>;
@@ -21,21 +21,30 @@ using Floats = hn::Vec<Lanes>;
 Floats set(float v) {
   return hn::Set(Lanes(), v);
 }
+Floats squared(Floats v) {
+  return hn::Mul(v, v);
+}
+/// Distance of v to the interval, 0 within.
+Floats outside(Floats v, float lo, float hi) {
+  return hn::Max(hn::Max(hn::Sub(set(lo), v), hn::Sub(v, set(hi))), set(0));
+}
+float outside(float v, float lo, float hi) {
+  return std::max(std::max(lo - v, v - hi), 0.0F);
+}
 
+/// The layers of a brick have their x and y in common.
 class Brick {
  public:
   Brick(const PointTreeView& tree, int x0, int y0, int z0, float* squares) : tree_(tree), squares_(squares) {
-    for (std::size_t i = 0; i < kVoxels; ++i) {
+    for (std::size_t i = 0; i < kLayer; ++i) {
       x_[i] = static_cast<float>(x0 + static_cast<int>(i) % kBrick);
-      y_[i] = static_cast<float>(y0 + static_cast<int>(i) / kBrick % kBrick);
-      z_[i] = static_cast<float>(z0 + static_cast<int>(i) / kBrick / kBrick);
+      y_[i] = static_cast<float>(y0 + static_cast<int>(i) / kBrick);
     }
-    constexpr float kHalf = (kBrick - 1) * 0.5F;
-    centre_ = {x_[0] + kHalf, y_[0] + kHalf, z_[0] + kHalf};
+    for (std::size_t i = 0; i < kBrick; ++i) z_[i] = static_cast<float>(z0 + static_cast<int>(i));
   }
 
   void run(std::uint32_t& hint) {
-    ask(hint, hint);
+    ask_leaf(hint);
     std::array<std::uint32_t, kPointTreeDepth> stack;
     std::size_t depth = 0;
     stack[depth++] = 0;
@@ -43,8 +52,10 @@ class Brick {
       const std::uint32_t at = stack[--depth];
       const PointNode& node = tree_.nodes[at];
       if (!may_hold_nearest(node)) continue;
-      for (std::uint32_t i = node.next; i < node.next + node.count; ++i) ask(i, hint);
-      if (node.count > 0) continue;
+      if (node.count > 0) {
+        if (ask_leaf(at)) hint = at;
+        continue;
+      }
       const bool swap = from_centre(tree_.nodes[node.next]) < from_centre(tree_.nodes[at + 1]);
       stack[depth++] = swap ? at + 1 : node.next;
       stack[depth++] = swap ? node.next : at + 1;
@@ -53,48 +64,69 @@ class Brick {
 
  private:
   float from_centre(const PointNode& n) const {
-    const float dx = std::max(std::max(n.lo.x - centre_.x, centre_.x - n.hi.x), 0.0F);
-    const float dy = std::max(std::max(n.lo.y - centre_.y, centre_.y - n.hi.y), 0.0F);
-    const float dz = std::max(std::max(n.lo.z - centre_.z, centre_.z - n.hi.z), 0.0F);
+    constexpr float kHalf = (kBrick - 1) * 0.5F;
+    const float dx = outside(x_[0] + kHalf, n.lo.x, n.hi.x), dy = outside(y_[0] + kHalf, n.lo.y, n.hi.y),
+                dz = outside(z_[0] + kHalf, n.lo.z, n.hi.z);
     return dx * dx + dy * dy + dz * dz;
-  }
-
-  static Floats square(Floats x, Floats y, Floats z) {
-    return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
   }
 
   /// Whether some voxel is as near to the node as to the best point so far.
   bool may_hold_nearest(const PointNode& n) const {
     const Lanes d;
-    const auto off = [](Floats v, float lo, float hi) {
-      return hn::Max(hn::Max(hn::Sub(set(lo), v), hn::Sub(v, set(hi))), set(0));
-    };
-    for (std::size_t i = 0; i < kVoxels; i += hn::Lanes(d)) {
-      const Floats box = square(off(hn::Load(d, x_ + i), n.lo.x, n.hi.x), off(hn::Load(d, y_ + i), n.lo.y, n.hi.y),
-                                off(hn::Load(d, z_ + i), n.lo.z, n.hi.z));
-      if (!hn::AllFalse(d, hn::Lt(box, hn::Mul(hn::LoadU(d, squares_ + i), set(kSlack))))) return true;
+    std::array<float, kBrick> dz;
+    for (std::size_t k = 0; k < kBrick; ++k) dz[k] = outside(z_[k], n.lo.z, n.hi.z);
+    for (std::size_t i = 0; i < kLayer; i += hn::Lanes(d)) {
+      const Floats xy = hn::Add(squared(outside(hn::Load(d, x_ + i), n.lo.x, n.hi.x)),
+                                squared(outside(hn::Load(d, y_ + i), n.lo.y, n.hi.y)));
+      Floats most = set(0);  // by how much the node is nearer
+      for (std::size_t k = 0; k < kBrick; ++k) {
+        const Floats best = hn::Mul(hn::LoadU(d, squares_ + k * kLayer + i), set(kSlack));
+        most = hn::Max(most, hn::Sub(best, hn::Add(xy, set(dz[k] * dz[k]))));
+      }
+      if (!hn::AllTrue(d, hn::Eq(most, set(0)))) return true;
     }
     return false;
   }
 
-  void ask(std::uint32_t index, std::uint32_t& hint) {
+  /// Whether a point of the leaf is the nearest so far to some voxel.
+  bool ask_leaf(std::uint32_t leaf) {
     const Lanes d;
-    const Vec3& p = tree_.points[index];
+    const std::span points = tree_.points.subspan(tree_.nodes[leaf].next, tree_.nodes[leaf].count);
     bool nearer = false;
-    for (std::size_t i = 0; i < kVoxels; i += hn::Lanes(d)) {
-      const Floats before = hn::LoadU(d, squares_ + i);
-      const Floats now = square(hn::Sub(hn::Load(d, x_ + i), set(p.x)), hn::Sub(hn::Load(d, y_ + i), set(p.y)),
-                                hn::Sub(hn::Load(d, z_ + i), set(p.z)));
-      nearer |= !hn::AllFalse(d, hn::Lt(now, before));
-      hn::StoreU(hn::Min(now, before), d, squares_ + i);
+    for (std::size_t i = 0; i < kLayer; i += hn::Lanes(d))
+      for (std::size_t k = 0; k < kBrick; k += 4) nearer |= ask_four_layers(points, i, k);
+    return nearer;
+  }
+
+  /// The voxels from `i` on of the layers from `k` on.
+  bool ask_four_layers(std::span<const Vec3> points, std::size_t i, std::size_t k) {
+    const Lanes d;
+    const Floats x = hn::Load(d, x_ + i), y = hn::Load(d, y_ + i);
+    float* at = squares_ + k * kLayer + i;
+    const float* z = z_.data() + k;
+    const Floats before0 = hn::LoadU(d, at), before1 = hn::LoadU(d, at + kLayer),
+                 before2 = hn::LoadU(d, at + 2 * kLayer), before3 = hn::LoadU(d, at + 3 * kLayer);
+    Floats best0 = before0, best1 = before1, best2 = before2, best3 = before3;
+    for (const Vec3& p : points) {
+      const Floats xy = hn::Add(squared(hn::Sub(x, set(p.x))), squared(hn::Sub(y, set(p.y))));
+      const auto with = [&](float layer) { return hn::Add(xy, set((layer - p.z) * (layer - p.z))); };
+      best0 = hn::Min(best0, with(z[0]));
+      best1 = hn::Min(best1, with(z[1]));
+      best2 = hn::Min(best2, with(z[2]));
+      best3 = hn::Min(best3, with(z[3]));
     }
-    if (nearer) hint = index;
+    hn::StoreU(best0, d, at);
+    hn::StoreU(best1, d, at + kLayer);
+    hn::StoreU(best2, d, at + 2 * kLayer);
+    hn::StoreU(best3, d, at + 3 * kLayer);
+    return !hn::AllFalse(d, hn::Or(hn::Or(hn::Lt(best0, before0), hn::Lt(best1, before1)),
+                                   hn::Or(hn::Lt(best2, before2), hn::Lt(best3, before3))));
   }
 
   const PointTreeView& tree_;
   float* squares_;
-  Vec3 centre_;
-  alignas(64) float x_[kVoxels], y_[kVoxels], z_[kVoxels];
+  alignas(64) float x_[kLayer], y_[kLayer];
+  std::array<float, kBrick> z_;
 };
 
 void lower_brick(const PointTreeView& tree, int x0, int y0, int z0, BrickSquares squares, std::uint32_t& hint) {

@@ -20,12 +20,12 @@ struct PointTreeView {
 };
 
 inline constexpr int kPointTreeDepth = 96;  ///< No tree is deeper.
-inline constexpr int kBrick = 4;            ///< Voxels along each edge of a brick.
+inline constexpr int kBrick = 8;            ///< Voxels along each edge of a brick.
 using BrickSquares = std::span<float, kBrick * kBrick * kBrick>;
 
-/// squares[(z 4 + y) 4 + x] = min(itself, squared distance from (x0 + x, y0 + y, z0 + z) to the nearest point).
+/// squares[(z 8 + y) 8 + x] = min(itself, squared distance from (x0 + x, y0 + y, z0 + z) to the nearest point).
 /// Squares of 0 ask for nothing.
-/// @param hint  A point that is probably near; set to the one that was nearest last.
+/// @param hint  A leaf that is probably near (0 in the beginning); set to the one that was nearest last.
 void lower_brick(const PointTreeView& tree, int x0, int y0, int z0, BrickSquares squares, std::uint32_t& hint);
 
 }  // namespace tetsoup::kernel
