@@ -16,7 +16,7 @@ std::vector<BitGrid> voxels_below(const BlockGrid& distance, std::span<const flo
       for (std::size_t word = 0; word < places.size(); ++word) {
         if (places[word] == 0) continue;
         const float* block = values.data() + std::size_t{BlockGrid::kBlock} * places[word];
-        find_below(block, limits.data(), limits.size(), found.data());
+        kernel::find_below(block, limits.data(), limits.size(), found.data());
         for (std::size_t k = 0; k < below.size(); ++k) below[k].words[first + word] = found[k];
       }
     }

@@ -1,6 +1,5 @@
 #include "pseudo_volume/cavities.h"
 
-#include <bit>
 #include <vector>
 
 #include "base/bits.h"
@@ -126,7 +125,7 @@ std::size_t fill_cavities(BitGrid& inside, const BitGrid& near_soup, StageWatch&
     std::size_t count = 0;
     for_words(begin, end, [&](std::size_t i) {
       cavity.words[i] &= ~reached.words[i];
-      if (cavity.words[i] != 0) count += static_cast<std::size_t>(std::popcount(cavity.words[i]));
+      if (cavity.words[i] != 0) count += bit_count(cavity.words[i]);
     });
     return count;
   });
@@ -140,7 +139,7 @@ std::size_t fill_cavities(BitGrid& inside, const BitGrid& near_soup, StageWatch&
       const std::uint64_t around = cavities.grown(y, z, i % words);
       if (around == 0) return;
       const std::uint64_t crust = around & ~outside.grown(y, z, i % words) & near_soup.words[i] & ~inside.words[i];
-      count += static_cast<std::size_t>(std::popcount(crust));
+      count += bit_count(crust);
       inside.words[i] |= cavity.words[i] | crust;
     });
     return count;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "base/bits.h"
@@ -149,7 +148,7 @@ void choose_band(const DistanceField& field, Trials& trials, const SoupMarks& ma
 std::size_t count_voxels(const BitGrid& bits) {
   std::size_t count = 0;
   for (const std::uint64_t word : bits.words)
-    if (word != 0) count += static_cast<std::size_t>(std::popcount(word));
+    if (word != 0) count += bit_count(word);
   return count;
 }
 

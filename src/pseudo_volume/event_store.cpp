@@ -15,10 +15,10 @@ constexpr auto kBeyondTheGrid = [] {
   return block;
 }();
 
-constexpr AxisEvents kAlways{~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}};
+constexpr kernel::AxisEvents kAlways{~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}};
 
-BlockNeighbours neighbours(const BlockGrid& distance, std::size_t w, int y, int z) {
-  BlockNeighbours around{};
+kernel::BlockNeighbours neighbours(const BlockGrid& distance, std::size_t w, int y, int z) {
+  kernel::BlockNeighbours around{};
   for (int r = 0; r < 9; ++r) {
     const int ry = y + r % 3 - 1, rz = z + r / 3 - 1;
     const bool within = ry >= 0 && rz >= 0 && ry < distance.frame.size[1] && rz < distance.frame.size[2];
@@ -50,7 +50,7 @@ void EventStore::fill(const BlockGrid& distance, std::size_t index) {
   for (std::size_t i = 0; i < known.places.size(); ++i) {
     std::uint64_t within = 0;
     if (known.places[i] != 0)
-      find_below(known.values.data() + std::size_t{BlockGrid::kBlock} * known.places[i], &reach_, 1, &within);
+      kernel::find_below(known.values.data() + std::size_t{BlockGrid::kBlock} * known.places[i], &reach_, 1, &within);
     if (within != 0) slab.places[i] = ++count;
   }
   for (auto& events : slab.sheets) {
@@ -64,10 +64,10 @@ void EventStore::fill(const BlockGrid& distance, std::size_t index) {
     const std::uint32_t place = slab.places[i];
     if (place == 0) continue;
     const std::size_t row = i / words_per_row_;
-    const WordEvents events =
-        find_events(neighbours(distance, i % words_per_row_, static_cast<int>(row % rows_per_layer_),
-                               first_layer + static_cast<int>(row / rows_per_layer_)));
-    for (std::size_t kind = 0; kind < kSheetKinds; ++kind) slab.sheets[kind][place] = events.sheets[kind];
+    const kernel::WordEvents events =
+        kernel::find_events(neighbours(distance, i % words_per_row_, static_cast<int>(row % rows_per_layer_),
+                                       first_layer + static_cast<int>(row / rows_per_layer_)));
+    for (std::size_t kind = 0; kind < kernel::kSheetKinds; ++kind) slab.sheets[kind][place] = events.sheets[kind];
     slab.along_x[place] = events.along_x;
   }
 }

@@ -10,13 +10,13 @@ namespace {
 /// A straight sequence of rows (y, z), (y + dy, z + dz), ...: a sheet of the grid that holds whole rays. Sheets of one
 /// kind share no row, so they can be cast at the same time.
 struct Sheet {
-  std::size_t kind;  ///< Of kSheetSteps.
+  std::size_t kind;  ///< Of kernel::kSheetSteps.
   int y, z, count;
 };
 
 /// Sheet `i` of those whose rows move by dy from layer to layer: the part inside the grid.
 Sheet sheet_along_z(std::size_t kind, int i, int ny, int nz) {
-  const int dy = kSheetSteps[kind][0];
+  const int dy = kernel::kSheetSteps[kind][0];
   if (dy == 0) return {kind, i, 0, nz};
   const int start = dy > 0 ? i - (nz - 1) : i;  // y at z = 0, outside the grid for sheets that enter from the side
   const int first = dy > 0 ? std::max(0, -start) : std::max(0, start - (ny - 1));
@@ -31,7 +31,7 @@ struct Rays {
 };
 
 /// Rays enter a word of voxels: bits of those that call it inside.
-/// @param ahead, lowest  As in AxisEvents, in the direction of the rays.
+/// @param ahead, lowest  As in kernel::AxisEvents, in the direction of the rays.
 std::uint64_t enter(Rays& rays, std::uint64_t band, std::uint64_t ahead, std::uint64_t lowest) {
   const std::uint64_t open = band & ~rays.fired;  // runs that still wait for their event
   const std::uint64_t now = open & ahead;         // the successor is not closer, and no closer than the predecessor
@@ -129,7 +129,7 @@ class RayCaster {
     const int ny = band_.frame.size[1];
     Scratch scratch(words_, ny);
     for (auto z = static_cast<int>(begin); z < static_cast<int>(end); ++z) {
-      cast_sheet({kSheetKinds - 1, 0, z, ny}, scratch);
+      cast_sheet({kernel::kSheetKinds - 1, 0, z, ny}, scratch);
       for (int y = 0; y < ny; ++y) cast_along_x(y, z, scratch.tally.data());
     }
   }
@@ -143,7 +143,7 @@ class RayCaster {
   };
 
   void cast_sheet(const Sheet& sheet, Scratch& scratch) const {
-    const auto step = kSheetSteps[sheet.kind];
+    const auto step = kernel::kSheetSteps[sheet.kind];
     const auto row_at = [&](int i, Tally*& tally) {
       tally = scratch.tally.data() + words_ * static_cast<std::size_t>(i);
       return std::array<int, 2>{sheet.y + i * step[0], sheet.z + i * step[1]};
@@ -171,10 +171,10 @@ class RayCaster {
         tally[w] = tally[w] + tally_of(rays[0].parity, rays[1].parity, rays[2].parity);
         return;
       }
-      const SheetEvents& axes = events[w];
+      const kernel::SheetEvents& axes = events[w];
       const auto meet = [&](std::size_t i) {
         // Rays that go back by dx a row are those of the axis that goes forward by -dx, met from its other end.
-        const AxisEvents& axis = axes[way == Way::Forward ? i : 2 - i];
+        const kernel::AxisEvents& axis = axes[way == Way::Forward ? i : 2 - i];
         return enter(rays[i], band[w], way == Way::Forward ? axis.ahead : axis.behind, axis.lowest);
       };
       tally[w] = tally[w] + tally_of(meet(0), meet(1), meet(2));
@@ -187,13 +187,13 @@ class RayCaster {
     const auto events = events_.row_along_x(y, z);
     RowRay forward;
     for (std::size_t w = 0; w < words_; ++w) {
-      const AxisEvents& axis = events[w];
+      const kernel::AxisEvents& axis = events[w];
       tally[w].ones = forward.enter(band[w], axis.ahead, axis.lowest) & row_mask(band_.frame.size[0], w);
     }
     // A ray against x is a ray along x in the mirrored row, where the bits above the row's end come first.
     RowRay back;
     for (std::size_t w = words_; both_ways_ && w-- > 0;) {
-      const AxisEvents& axis = events[w];
+      const kernel::AxisEvents& axis = events[w];
       const std::uint64_t inside =
           reversed(back.enter(reversed(band[w]), reversed(axis.behind), reversed(axis.lowest)));
       tally[w] = tally[w] + Tally{inside & row_mask(band_.frame.size[0], w)};
@@ -226,15 +226,15 @@ void cast_rays(const BitGrid& band, const EventStore& events, int rays, VoteGrid
   const RayCaster caster(band, events, rays, votes);
   const int ny = band.frame.size[1], nz = band.frame.size[2];
   const auto enter_part = [&](std::size_t i) {
-    const double share = (end - begin) / kSheetKinds, from = begin + share * static_cast<double>(i);
+    const double share = (end - begin) / kernel::kSheetKinds, from = begin + share * static_cast<double>(i);
     watch.enter_part(from, from + share);
   };
-  for (std::size_t kind = 0; kind + 1 < kSheetKinds; ++kind) {
+  for (std::size_t kind = 0; kind + 1 < kernel::kSheetKinds; ++kind) {
     enter_part(kind);
-    parallel_for(kSheetSteps[kind][0] == 0 ? ny : ny + nz - 1, 2, watch,
+    parallel_for(kernel::kSheetSteps[kind][0] == 0 ? ny : ny + nz - 1, 2, watch,
                  [&](std::int64_t first, std::int64_t last) { caster.cast_sheets(kind, first, last); });
   }
-  enter_part(kSheetKinds - 1);
+  enter_part(kernel::kSheetKinds - 1);
   parallel_for(nz, 2, watch, [&](std::int64_t first, std::int64_t last) { caster.cast_layers(first, last); });
 }
 

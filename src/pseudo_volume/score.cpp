@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "base/bits.h"
@@ -58,8 +57,8 @@ struct Share {
   std::uint64_t some = 0, all = 0;
   void operator+=(const Share& other) { some += other.some, all += other.all; }
   void count(std::uint64_t bits, std::uint64_t of_these) {
-    all += static_cast<std::uint64_t>(std::popcount(bits));
-    some += static_cast<std::uint64_t>(std::popcount(bits & of_these));
+    all += bit_count(bits);
+    some += bit_count(bits & of_these);
   }
 };
 
@@ -147,7 +146,7 @@ VoteStatistics count_votes(const VoteGrid& votes, int rays, BitGrid& inside, Sta
             const std::uint64_t in_box = in[w] & unpadded[w];
             sum.votes += sum_votes(words[w], unpadded[w]);
             if (in_box == 0) continue;
-            sum.voxels_in += static_cast<std::uint64_t>(std::popcount(in_box));
+            sum.voxels_in += bit_count(in_box);
             sum.votes_in += sum_votes(words[w], in_box);
           }
         });

@@ -1,9 +1,9 @@
 // Arithmetic on the votes of 64 voxels at once.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
+#include "base/bits.h"
 #include "tetsoup/pseudo_volume.h"
 
 namespace tetsoup {
@@ -59,8 +59,7 @@ inline std::uint64_t votes_above(const VoteWord& votes, unsigned limit) {
 /// Sum of the votes of the voxels in `mask`.
 inline std::uint64_t sum_votes(const VoteWord& votes, std::uint64_t mask) {
   std::uint64_t total = 0;
-  for (std::size_t i = 0; i < votes.slices.size(); ++i)
-    total += static_cast<std::uint64_t>(std::popcount(votes.slices[i] & mask)) << i;
+  for (std::size_t i = 0; i < votes.slices.size(); ++i) total += bit_count(votes.slices[i] & mask) << i;
   return total;
 }
 
