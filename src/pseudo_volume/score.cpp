@@ -121,9 +121,11 @@ SoupMarks mark_soup(const BlockGrid& distance, StageWatch& watch) {
   const Unpadded unpadded(frame);
   parallel_for(row_count(frame), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     for_rows(frame, begin, end, [&](int y, int z, std::size_t row) {
-      for (BitGrid& bits : marks)
-        for (std::size_t w = 0; w < bits.words_per_row; ++w)
-          bits.words[row * bits.words_per_row + w] &= unpadded.has_row(y, z) ? unpadded[w] : 0;
+      const bool counts = unpadded.has_row(y, z);
+      for (BitGrid& bits : marks) {
+        std::uint64_t* words = bits.words.data() + row * bits.words_per_row;
+        for (std::size_t w = 0; w < bits.words_per_row; ++w) words[w] &= counts ? unpadded[w] : 0;
+      }
     });
   });
   return {std::move(marks[0]), std::move(marks[1]), std::move(marks[2])};
