@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kernel/reference.h"
-#include "simd_targets.h"
+#include "kernel/targets.h"
 
 namespace tetsoup {
 
@@ -40,19 +40,22 @@ class RandomNeighbours {
 };
 
 TEST(EventMasks, every_instruction_set_finds_the_events_of_the_obvious_loops) {
-  test::for_each_simd_target([&] {
+  int targets = 0;
+  for_each_simd_target([&](const std::string& target) {
+    ++targets;
     for (unsigned seed = 0; seed < 50; ++seed) {
       const RandomNeighbours random(seed);
       const kernel::WordEvents found = kernel::find_events(random.around()),
                                expected = reference::find_events(random.around());
-      ASSERT_EQ(found.sheets, expected.sheets) << "seed " << seed;
-      ASSERT_EQ(found.along_x, expected.along_x) << "seed " << seed;
+      ASSERT_EQ(found.sheets, expected.sheets) << target << ", seed " << seed;
+      ASSERT_EQ(found.along_x, expected.along_x) << target << ", seed " << seed;
     }
   });
+  EXPECT_GE(targets, 2) << "only one instruction set is built: nothing was compared";
 }
 
 TEST(EventMasks, every_instruction_set_finds_what_lies_below_a_limit) {
-  test::for_each_simd_target([&] {
+  for_each_simd_target([&](const std::string& target) {
     for (unsigned seed = 0; seed < 20; ++seed) {
       const RandomNeighbours random(seed);
       const float* block = random.around().rows[0];
@@ -61,7 +64,7 @@ TEST(EventMasks, every_instruction_set_finds_what_lies_below_a_limit) {
       kernel::find_below(block, limits.data(), limits.size(), below.data());
       for (std::size_t i = 0; i < limits.size(); ++i)
         for (int x = 0; x < 64; ++x) expected[i] |= static_cast<std::uint64_t>(block[x] < limits[i]) << x;
-      ASSERT_EQ(below, expected) << "seed " << seed;
+      ASSERT_EQ(below, expected) << target << ", seed " << seed;
     }
   });
 }

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "kernel/reference.h"
+#include "kernel/targets.h"
 #include "ray_parity.h"
 #include "shapes.h"
-#include "simd_targets.h"
 #include "tetsoup/error.h"
 #include "tetsoup/pseudo_volume.h"
 #include "tetsoup/samples.h"
@@ -152,11 +152,11 @@ TEST(PseudoVolume, every_instruction_set_gives_the_same_bits) {
     PseudoVolumeOptions options;
     options.placement = placement;
     const PseudoVolume best = classify_volume(field, options);
-    test::for_each_simd_target([&] {
+    for_each_simd_target([&](const std::string& target) {
       const PseudoVolume volume = classify_volume(field, options);
-      EXPECT_EQ(volume.votes, best.votes);
-      EXPECT_EQ(volume.inside.words, best.inside.words);
-      EXPECT_EQ(volume.report.band_voxels, best.report.band_voxels);
+      EXPECT_EQ(volume.votes, best.votes) << target;
+      EXPECT_EQ(volume.inside.words, best.inside.words) << target;
+      EXPECT_EQ(volume.report.band_voxels, best.report.band_voxels) << target;
     });
   }
 }
