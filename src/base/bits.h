@@ -37,6 +37,14 @@ inline std::uint64_t shifted_down(const std::uint64_t* row, std::size_t w, std::
   return row[w] >> 1 | (w + 1 < words ? row[w + 1] << 63 : 0);
 }
 
+/// Number of set bits. Not std::popcount, which without the processor's own instruction is a call into a table.
+inline std::size_t bit_count(std::uint64_t v) {
+  v -= v >> 1 & 0x5555555555555555U;
+  v = (v & 0x3333333333333333U) + (v >> 2 & 0x3333333333333333U);
+  v = (v + (v >> 4)) & 0x0F0F0F0F0F0F0F0FU;
+  return static_cast<std::size_t>(v * 0x0101010101010101U >> 56);
+}
+
 /// The rows of a grid by (y, z), also beyond it.
 class BitRows {
  public:
@@ -65,14 +73,6 @@ class BitRows {
  private:
   const BitGrid& bits_;
 };
-
-/// Number of set bits. Not std::popcount, which without the processor's own instruction is a call into a table.
-inline std::size_t bit_count(std::uint64_t v) {
-  v -= v >> 1 & 0x5555555555555555U;
-  v = (v & 0x3333333333333333U) + (v >> 2 & 0x3333333333333333U);
-  v = (v + (v >> 4)) & 0x0F0F0F0F0F0F0F0FU;
-  return static_cast<std::size_t>(v * 0x0101010101010101U >> 56);
-}
 
 /// Bit i of the result is the exclusive or of bits 0..i.
 inline std::uint64_t prefix_parity(std::uint64_t v) {

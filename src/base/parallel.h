@@ -101,7 +101,7 @@ void parallel_for(std::int64_t count, std::int64_t grain, StageWatch& watch, con
   watch.throw_if_stopped();
 }
 
-/// Sum of body(begin, end) over the chunks of [0, count), added in their order.
+/// Sum of body(begin, end) over the chunks, added in their order. As parallel_for() otherwise.
 template <class Sum, class Body>
 Sum parallel_sum(std::int64_t count, std::int64_t grain, StageWatch& watch, const Body& body) {
   std::vector<Sum> parts(static_cast<std::size_t>(chunk_count(count, grain)));

@@ -3,12 +3,10 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernel/event_masks.cpp"
 #include <hwy/foreach_target.h>
-// After it, or the loop over the targets does not see what each of them has.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace tetsoup {
-namespace HWY_NAMESPACE {
+namespace tetsoup::kernel::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -48,7 +46,7 @@ HWY_INLINE void find_axis_events(Floats d, std::size_t x, const float* here, con
   });
 }
 
-HWY_ATTR void FindEvents(const BlockNeighbours& around, WordEvents& events) {
+HWY_ATTR void find_events(const BlockNeighbours& around, WordEvents& events) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d), step = lanes < 8 ? 8 : lanes;
   HWY_ALIGN PaddedRow rows[9];
@@ -70,7 +68,7 @@ HWY_ATTR void FindEvents(const BlockNeighbours& around, WordEvents& events) {
   }
 }
 
-HWY_ATTR void FindBelow(const float* block, const float* limits, std::size_t count, std::uint64_t* bits) {
+HWY_ATTR void find_below(const float* block, const float* limits, std::size_t count, std::uint64_t* bits) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d), step = lanes < 8 ? 8 : lanes;
   for (std::size_t x = 0; x < kBlock; x += step) {
@@ -82,31 +80,30 @@ HWY_ATTR void FindBelow(const float* block, const float* limits, std::size_t cou
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace tetsoup
+}  // namespace tetsoup::kernel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
 #include <bit>
 
-namespace tetsoup {
+namespace tetsoup::kernel {
 
 static_assert(std::endian::native == std::endian::little, "bits of a mask are stored byte by byte");
 
-HWY_EXPORT(FindEvents);
-HWY_EXPORT(FindBelow);
+HWY_EXPORT(find_events);
+HWY_EXPORT(find_below);
 
 WordEvents find_events(const BlockNeighbours& around) {
   WordEvents events;
-  HWY_DYNAMIC_DISPATCH(FindEvents)(around, events);
+  HWY_DYNAMIC_DISPATCH(find_events)(around, events);
   return events;
 }
 
 void find_below(const float* block, const float* limits, std::size_t count, std::uint64_t* bits) {
-  HWY_DYNAMIC_DISPATCH(FindBelow)(block, limits, count, bits);
+  HWY_DYNAMIC_DISPATCH(find_below)(block, limits, count, bits);
 }
 
-}  // namespace tetsoup
+}  // namespace tetsoup::kernel
 
 #endif

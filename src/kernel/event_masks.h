@@ -4,9 +4,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
-namespace tetsoup {
+namespace tetsoup::kernel {
 
 /// Bits of 64 voxels along x about one axis: each voxel against its two neighbours along the axis, the one ahead and
 /// the one behind. Beyond the grid the distance is infinite.
@@ -43,4 +44,4 @@ WordEvents find_events(const BlockNeighbours& around);
 /// Which of 64 values lie below each of the limits.
 void find_below(const float* block, const float* limits, std::size_t count, std::uint64_t* bits);
 
-}  // namespace tetsoup
+}  // namespace tetsoup::kernel

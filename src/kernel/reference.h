@@ -66,8 +66,8 @@ inline Grid<std::uint8_t> count_votes(const Grid<float>& distance, float band, i
 
 /// Bits of 64 voxels about one axis: those ahead begin at `next`, those behind at `previous`.
 template <class Value>
-AxisEvents find_axis_events(const Value& here, const Value& next, const Value& previous) {
-  AxisEvents events;
+kernel::AxisEvents find_axis_events(const Value& here, const Value& next, const Value& previous) {
+  kernel::AxisEvents events;
   for (int x = 0; x < 64; ++x) {
     const auto mark = [&](std::uint64_t& bits, bool set) { bits |= static_cast<std::uint64_t>(set) << x; };
     mark(events.ahead, next(x) >= here(x) && next(x) >= previous(x));
@@ -77,7 +77,7 @@ AxisEvents find_axis_events(const Value& here, const Value& next, const Value& p
   return events;
 }
 
-inline WordEvents find_events(const BlockNeighbours& around) {
+inline kernel::WordEvents find_events(const kernel::BlockNeighbours& around) {
   const auto values = [&](int dx, int dy, int dz) {
     const auto row = static_cast<std::size_t>(3 * (dz + 1) + dy + 1);
     return [&around, row, dx](int x) {
@@ -87,9 +87,9 @@ inline WordEvents find_events(const BlockNeighbours& around) {
   const auto about = [&](int dx, int dy, int dz) {
     return find_axis_events(values(0, 0, 0), values(dx, dy, dz), values(-dx, -dy, -dz));
   };
-  WordEvents events;
-  for (std::size_t kind = 0; kind < kSheetKinds; ++kind) {
-    const auto [dy, dz] = kSheetSteps[kind];
+  kernel::WordEvents events;
+  for (std::size_t kind = 0; kind < kernel::kSheetKinds; ++kind) {
+    const auto [dy, dz] = kernel::kSheetSteps[kind];
     for (int dx = -1; dx <= 1; ++dx) events.sheets[kind][static_cast<std::size_t>(dx + 1)] = about(dx, dy, dz);
   }
   events.along_x = about(1, 0, 0);

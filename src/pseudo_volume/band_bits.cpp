@@ -16,12 +16,26 @@ std::vector<BitGrid> voxels_below(const BlockGrid& distance, std::span<const flo
       for (std::size_t word = 0; word < places.size(); ++word) {
         if (places[word] == 0) continue;
         const float* block = values.data() + std::size_t{BlockGrid::kBlock} * places[word];
-        find_below(block, limits.data(), limits.size(), found.data());
+        kernel::find_below(block, limits.data(), limits.size(), found.data());
         for (std::size_t k = 0; k < below.size(); ++k) below[k].words[first + word] = found[k];
       }
     }
   });
   return below;
+}
+
+BandBits find_band(const BlockGrid& distance, float band, StageWatch& watch) {
+  BandBits found{std::move(voxels_below(distance, {&band, 1}, watch).front()), {}};
+  const std::size_t words = found.bits.words_per_row;
+  found.ranges.resize(found.bits.words.size() / words);
+  constexpr std::int64_t kRowsAtOnce = 1024;
+  parallel_for(static_cast<std::int64_t>(found.ranges.size()), kRowsAtOnce, watch,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row)
+                   for (std::uint32_t w = 0; w < words; ++w)
+                     if (found.bits.words[row * words + w] != 0) found.ranges[row].include(w);
+               });
+  return found;
 }
 
 }  // namespace tetsoup

@@ -1,6 +1,8 @@
 // Which voxels lie within some distances of the soup.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -11,5 +13,28 @@ namespace tetsoup {
 
 /// For each limit the voxels whose distance is below it, found in one pass.
 std::vector<BitGrid> voxels_below(const BlockGrid& distance, std::span<const float> limits, StageWatch& watch);
+
+/// Neighbouring words of a row.
+struct WordRange {
+  std::uint32_t begin = 0, end = 0;
+
+  bool empty() const { return begin == end; }
+  void include(std::uint32_t word) {
+    begin = empty() ? word : std::min(begin, word);
+    end = std::max(end, word + 1);
+  }
+  void include(const WordRange& other) {
+    if (other.empty()) return;
+    include(other.begin);
+    include(other.end - 1);
+  }
+};
+
+/// The voxels nearer to the soup than a band.
+struct BandBits {
+  BitGrid bits;
+  std::vector<WordRange> ranges;  ///< (nz, ny): of every row the words from the first to the last with a bit.
+};
+BandBits find_band(const BlockGrid& distance, float band, StageWatch& watch);
 
 }  // namespace tetsoup

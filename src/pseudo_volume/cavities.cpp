@@ -1,6 +1,6 @@
 #include "pseudo_volume/cavities.h"
 
-#include <bit>
+#include <array>
 #include <vector>
 
 #include "base/bits.h"
@@ -52,7 +52,8 @@ class Flood {
     for (std::size_t steps = 0; !pending.empty(); ++steps) {
       const std::size_t row = pending.back();
       pending.pop_back();
-      if (visit(row)) for_neighbours(row, [&](std::size_t other) { pending.push_back(other); });
+      if (visit(row))
+        for (const std::size_t other : rows_beside(row)) pending.push_back(other);
       if (steps % 4096 == 0) watch.step(0);
     }
     return std::move(reached_);
@@ -73,27 +74,27 @@ class Flood {
     }
   }
 
-  template <class Body>
-  void for_neighbours(std::size_t row, const Body& body) const {
-    if (row % rows_y_ > 0) body(row - 1);
-    if ((row + 1) % rows_y_ > 0) body(row + 1);
-    if (row >= rows_y_) body(row - rows_y_);
-    if (row + rows_y_ < rows_) body(row + rows_y_);
+  /// The rows beside a row, itself in place of those beyond the grid.
+  std::array<std::size_t, 4> rows_beside(std::size_t row) const {
+    const std::size_t y = row % rows_y_;
+    return {y > 0 ? row - 1 : row, y + 1 < rows_y_ ? row + 1 : row, row >= rows_y_ ? row - rows_y_ : row,
+            row + rows_y_ < rows_ ? row + rows_y_ : row};
   }
 
-  /// Lets the flood enter a row from its four neighbours. Returns whether it got any further.
+  /// Lets the flood enter a row from those beside it. Returns whether it got any further.
   bool visit(std::size_t row) {
     std::uint64_t* reached = reached_.words.data() + row * words_;
     const std::uint64_t* free = free_.words.data() + row * words_;
+    const auto beside = rows_beside(row);
     std::uint64_t entered = 0;
-    for_neighbours(row, [&](std::size_t other) {
-      const std::uint64_t* from = reached_.words.data() + other * words_;
-      for (std::size_t w = 0; w < words_; ++w) {
-        const std::uint64_t more = from[w] & free[w] & ~reached[w];
-        reached[w] |= more;
-        entered |= more;
-      }
-    });
+    for (std::size_t w = 0; w < words_; ++w) {
+      const std::uint64_t dry = free[w] & ~reached[w];
+      if (dry == 0) continue;
+      std::uint64_t around = 0;
+      for (const std::size_t other : beside) around |= reached_.words[other * words_ + w];
+      reached[w] |= around & dry;
+      entered |= around & dry;
+    }
     if (entered != 0) spread_along_row(reached, free, words_);
     return entered != 0;
   }
@@ -122,27 +123,38 @@ std::size_t fill_cavities(BitGrid& inside, const BitGrid& near_soup, StageWatch&
   const BitGrid reached = Flood(free).run(watch);
 
   BitGrid& cavity = free;
+  std::vector<char> has_cavity(static_cast<std::size_t>(rows));
   auto added = parallel_sum<std::size_t>(rows, kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     std::size_t count = 0;
     for_words(begin, end, [&](std::size_t i) {
       cavity.words[i] &= ~reached.words[i];
-      if (cavity.words[i] != 0) count += static_cast<std::size_t>(std::popcount(cavity.words[i]));
+      if (cavity.words[i] == 0) return;
+      count += bit_count(cavity.words[i]);
+      has_cavity[i / words] = 1;
     });
     return count;
   });
   if (added == 0) return 0;
   const BitRows cavities(cavity), outside(reached);
+  const auto is_beside_cavity = [&](int y, int z) {
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        if (cavities.at(y + dy, z + dz) && has_cavity[static_cast<std::size_t>((z + dz) * ny + y + dy)]) return true;
+    return false;
+  };
   added += parallel_sum<std::size_t>(rows, kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     std::size_t count = 0;
-    for_words(begin, end, [&](std::size_t i) {
-      const auto row = static_cast<std::int64_t>(i / words);
+    for (std::int64_t row = begin; row < end; ++row) {
       const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
-      const std::uint64_t around = cavities.grown(y, z, i % words);
-      if (around == 0) return;
-      const std::uint64_t crust = around & ~outside.grown(y, z, i % words) & near_soup.words[i] & ~inside.words[i];
-      count += static_cast<std::size_t>(std::popcount(crust));
-      inside.words[i] |= cavity.words[i] | crust;
-    });
+      if (!is_beside_cavity(y, z)) continue;
+      for_words(row, row + 1, [&](std::size_t i) {
+        const std::uint64_t around = cavities.grown(y, z, i % words);
+        if (around == 0) return;
+        const std::uint64_t crust = around & ~outside.grown(y, z, i % words) & near_soup.words[i] & ~inside.words[i];
+        count += bit_count(crust);
+        inside.words[i] |= cavity.words[i] | crust;
+      });
+    }
     return count;
   });
   return added;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "base/bits.h"
@@ -77,8 +76,7 @@ class Trials {
     watch_.enter_part(begin, begin + kEventsShare * (end - begin));
     begin += kEventsShare * (end - begin);
     find_events_for(band_voxels);
-    const float limit = length(band_voxels);
-    const BitGrid band = std::move(voxels_below(distance_, {&limit, 1}, watch_).front());
+    const BandBits band = find_band(distance_, length(band_voxels), watch_);
     clear(trial.votes);
     if (trial.inside.words.empty()) trial.inside = make_bit_grid(distance_.frame);
     cast_rays(band, *events_, options_.rays, trial.votes, watch_, begin, end);
@@ -101,10 +99,13 @@ class Trials {
   }
 
   void clear(VoteGrid& votes) {
-    votes.frame = distance_.frame;
-    votes.words_per_row = distance_.blocks_per_row;
-    votes.words.resize(votes.words_per_row * static_cast<std::size_t>(votes.frame.size[1]) *
-                       static_cast<std::size_t>(votes.frame.size[2]));
+    if (votes.words.empty()) {
+      votes.frame = distance_.frame;
+      votes.words_per_row = distance_.blocks_per_row;
+      votes.words.resize(votes.words_per_row * static_cast<std::size_t>(votes.frame.size[1]) *
+                         static_cast<std::size_t>(votes.frame.size[2]));
+      return;
+    }
     constexpr std::int64_t kWordsAtOnce = 1 << 16;
     parallel_for(static_cast<std::int64_t>(votes.words.size()), kWordsAtOnce, watch_,
                  [&](std::int64_t first, std::int64_t last) {
@@ -149,7 +150,7 @@ void choose_band(const DistanceField& field, Trials& trials, const SoupMarks& ma
 std::size_t count_voxels(const BitGrid& bits) {
   std::size_t count = 0;
   for (const std::uint64_t word : bits.words)
-    if (word != 0) count += static_cast<std::size_t>(std::popcount(word));
+    if (word != 0) count += bit_count(word);
   return count;
 }
 

@@ -1,5 +1,6 @@
 #include "pseudo_volume/event_store.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "base/block_grid.h"
@@ -15,20 +16,34 @@ constexpr auto kBeyondTheGrid = [] {
   return block;
 }();
 
-constexpr AxisEvents kAlways{~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}};
+constexpr kernel::AxisEvents kAlways{~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}};
 
-BlockNeighbours neighbours(const BlockGrid& distance, std::size_t w, int y, int z) {
-  BlockNeighbours around{};
-  for (int r = 0; r < 9; ++r) {
-    const int ry = y + r % 3 - 1, rz = z + r / 3 - 1;
-    const bool within = ry >= 0 && rz >= 0 && ry < distance.frame.size[1] && rz < distance.frame.size[2];
-    const auto i = static_cast<std::size_t>(r);
-    around.rows[i] = within ? distance.block(w, ry, rz) : kBeyondTheGrid.data();
-    around.before[i] = within && w > 0 ? distance.block(w - 1, ry, rz)[BlockGrid::kBlock - 1] : kInfinity;
-    around.after[i] = within && w + 1 < distance.blocks_per_row ? distance.block(w + 1, ry, rz)[0] : kInfinity;
+/// The nine rows of blocks around a row.
+class RowNeighbours {
+ public:
+  RowNeighbours(const BlockGrid& distance, int y, int z) : words_(distance.blocks_per_row) {
+    for (int r = 0; r < 9; ++r) {
+      const int ry = y + r % 3 - 1, rz = z + r / 3 - 1;
+      if (distance.frame.contains(0, ry, rz)) rows_[static_cast<std::size_t>(r)] = block_row(distance, ry, rz);
+    }
   }
-  return around;
-}
+
+  kernel::BlockNeighbours at(std::size_t w) const {
+    kernel::BlockNeighbours around;
+    for (std::size_t r = 0; r < 9; ++r) {
+      const BlockRow& row = rows_[r];
+      const bool within = row.places != nullptr;
+      around.rows[r] = within ? row[w] : kBeyondTheGrid.data();
+      around.before[r] = within && w > 0 ? row[w - 1][BlockGrid::kBlock - 1] : kInfinity;
+      around.after[r] = within && w + 1 < words_ ? row[w + 1][0] : kInfinity;
+    }
+    return around;
+  }
+
+ private:
+  std::array<BlockRow, 9> rows_{};
+  std::size_t words_;
+};
 
 }  // namespace
 
@@ -50,7 +65,7 @@ void EventStore::fill(const BlockGrid& distance, std::size_t index) {
   for (std::size_t i = 0; i < known.places.size(); ++i) {
     std::uint64_t within = 0;
     if (known.places[i] != 0)
-      find_below(known.values.data() + std::size_t{BlockGrid::kBlock} * known.places[i], &reach_, 1, &within);
+      kernel::find_below(known.values.data() + std::size_t{BlockGrid::kBlock} * known.places[i], &reach_, 1, &within);
     if (within != 0) slab.places[i] = ++count;
   }
   for (auto& events : slab.sheets) {
@@ -60,15 +75,17 @@ void EventStore::fill(const BlockGrid& distance, std::size_t index) {
   slab.along_x.resize(count + 1);
   slab.along_x.front() = kAlways;
   const int first_layer = static_cast<int>(index) * BlockGrid::kSlab;
-  for (std::size_t i = 0; i < slab.places.size(); ++i) {
-    const std::uint32_t place = slab.places[i];
-    if (place == 0) continue;
-    const std::size_t row = i / words_per_row_;
-    const WordEvents events =
-        find_events(neighbours(distance, i % words_per_row_, static_cast<int>(row % rows_per_layer_),
-                               first_layer + static_cast<int>(row / rows_per_layer_)));
-    for (std::size_t kind = 0; kind < kSheetKinds; ++kind) slab.sheets[kind][place] = events.sheets[kind];
-    slab.along_x[place] = events.along_x;
+  for (std::size_t row = 0; row * words_per_row_ < slab.places.size(); ++row) {
+    const std::uint32_t* places = slab.places.data() + row * words_per_row_;
+    if (std::all_of(places, places + words_per_row_, [](std::uint32_t place) { return place == 0; })) continue;
+    const RowNeighbours around(distance, static_cast<int>(row % rows_per_layer_),
+                               first_layer + static_cast<int>(row / rows_per_layer_));
+    for (std::size_t w = 0; w < words_per_row_; ++w) {
+      if (places[w] == 0) continue;
+      const kernel::WordEvents events = kernel::find_events(around.at(w));
+      for (std::size_t kind = 0; kind < kernel::kSheetKinds; ++kind) slab.sheets[kind][places[w]] = events.sheets[kind];
+      slab.along_x[places[w]] = events.along_x;
+    }
   }
 }
 

@@ -31,17 +31,17 @@ class EventStore {
     const std::uint32_t* places_;
     const Events* events_;
   };
-  Row<SheetEvents> sheet_row(std::size_t kind, int y, int z) const {
+  Row<kernel::SheetEvents> sheet_row(std::size_t kind, int y, int z) const {
     return {places(y, z), slab(z).sheets[kind].data()};
   }
-  Row<AxisEvents> row_along_x(int y, int z) const { return {places(y, z), slab(z).along_x.data()}; }
+  Row<kernel::AxisEvents> row_along_x(int y, int z) const { return {places(y, z), slab(z).along_x.data()}; }
 
  private:
   /// Layers that are stored together, as those of the distance.
   struct Slab {
     std::vector<std::uint32_t> places;  ///< (layers, ny, words_per_row): the word's place in what follows.
-    std::array<std::vector<SheetEvents>, kSheetKinds> sheets;
-    std::vector<AxisEvents> along_x;
+    std::array<std::vector<kernel::SheetEvents>, kernel::kSheetKinds> sheets;
+    std::vector<kernel::AxisEvents> along_x;
   };
   const Slab& slab(int z) const { return slabs_[static_cast<std::size_t>(z / BlockGrid::kSlab)]; }
   const std::uint32_t* places(int y, int z) const {

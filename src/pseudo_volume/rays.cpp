@@ -7,21 +7,34 @@
 namespace tetsoup {
 namespace {
 
-/// A straight sequence of rows (y, z), (y + dy, z + dz), ...: a sheet of the grid that holds whole rays. Sheets of one
-/// kind share no row, so they can be cast at the same time.
+/// A straight sequence of rows (y, z), (y + dy, z + dz), ...: a sheet of voxels that holds whole rays. Sheets of one
+/// kind share no row, so they can be cast at the same time. A sheet may begin and end beyond the grid, where nothing
+/// happens.
 struct Sheet {
-  std::size_t kind;  ///< Of kSheetSteps.
-  int y, z, count;
+  std::size_t kind;  ///< Of kernel::kSheetSteps.
+  int y, z;
+
+  std::array<int, 2> row(int i) const {
+    const auto [dy, dz] = kernel::kSheetSteps[kind];
+    return {y + i * dy, z + i * dz};
+  }
 };
 
-/// Sheet `i` of those whose rows move by dy from layer to layer: the part inside the grid.
-Sheet sheet_along_z(std::size_t kind, int i, int ny, int nz) {
-  const int dy = kSheetSteps[kind][0];
-  if (dy == 0) return {kind, i, 0, nz};
-  const int start = dy > 0 ? i - (nz - 1) : i;  // y at z = 0, outside the grid for sheets that enter from the side
-  const int first = dy > 0 ? std::max(0, -start) : std::max(0, start - (ny - 1));
-  const int last = dy > 0 ? std::min(nz - 1, ny - 1 - start) : std::min(nz - 1, start);
-  return {kind, start + dy * first, first, last - first + 1};
+/// How many sheets of a kind there are, and of how many rows.
+struct SheetCount {
+  int sheets, rows;
+};
+SheetCount count_sheets(std::size_t kind, const GridFrame& frame) {
+  const auto [dy, dz] = kernel::kSheetSteps[kind];
+  const int ny = frame.size[1], nz = frame.size[2];
+  if (dz == 0) return {nz, ny};
+  return {dy == 0 ? ny : ny + nz - 1, nz};
+}
+
+Sheet nth_sheet(std::size_t kind, int n, const GridFrame& frame) {
+  const auto [dy, dz] = kernel::kSheetSteps[kind];
+  if (dz == 0) return {kind, 0, n};
+  return {kind, dy > 0 ? n - (frame.size[2] - 1) : n, 0};
 }
 
 /// What 64 rays that go the same way remember from voxel to voxel.
@@ -31,7 +44,7 @@ struct Rays {
 };
 
 /// Rays enter a word of voxels: bits of those that call it inside.
-/// @param ahead, lowest  As in AxisEvents, in the direction of the rays.
+/// @param ahead, lowest  As in kernel::AxisEvents, in the direction of the rays.
 std::uint64_t enter(Rays& rays, std::uint64_t band, std::uint64_t ahead, std::uint64_t lowest) {
   const std::uint64_t open = band & ~rays.fired;  // runs that still wait for their event
   const std::uint64_t now = open & ahead;         // the successor is not closer, and no closer than the predecessor
@@ -50,33 +63,43 @@ class RayFront {
  public:
   explicit RayFront(std::size_t words) : words_(words + 1) {}  // one that stays empty follows the last
 
-  void reset() { std::fill(words_.begin(), words_.end(), ThreeWays{}); }
+  void reset() {
+    std::fill(words_.begin(), words_.end(), ThreeWays{});
+    active_ = {};
+  }
 
   /// Moves all rays into the next row and lets them meet it. Rays that enter through the side of the grid have zero
   /// bits: outside.
-  /// @param meet  meet(w, rays): what the rays do in word w; called where there is band, or a ray inside.
+  /// @param reach  The words of the row that hold all of its band.
+  /// @param meet   meet(w, rays): what the rays do in word w; called where there is band, or a ray inside.
   template <class Meet>
-  void enter_row(const std::uint64_t* band, std::uint64_t last_mask, const Meet& meet) {
-    const std::size_t words = words_.size() - 1;
+  void enter_row(const std::uint64_t* band, WordRange reach, std::uint64_t last_mask, const Meet& meet) {
+    const auto words = static_cast<std::uint32_t>(words_.size() - 1);
+    if (!active_.empty()) {
+      reach.include(active_.begin > 0 ? active_.begin - 1 : 0);
+      reach.include(std::min(active_.end, words - 1));
+    }
+    active_ = {};
     Rays from_below;  // the top bits of the word before, as it was
-    for (std::size_t w = 0; w < words; ++w) {
-      ThreeWays& rays = words_[w];
-      const Rays& above = words_[w + 1][0];
+    for (std::uint32_t w = reach.begin; w < reach.end; ++w) {
+      ThreeWays rays = words_[w];
+      const Rays above = words_[w + 1][0], up = rays[2];
       rays[0] = {rays[0].parity >> 1 | above.parity << 63, rays[0].fired >> 1 | above.fired << 63};
-      const Rays up = rays[2];
       rays[2] = {up.parity << 1 | from_below.parity, up.fired << 1 | from_below.fired};
       from_below = {up.parity >> 63, up.fired >> 63};
       if (w + 1 == words) rays[2].parity &= last_mask;
-      if (band[w] == 0) {
-        rays[0].fired = rays[1].fired = rays[2].fired = 0;
-        if ((rays[0].parity | rays[1].parity | rays[2].parity) == 0) continue;
+      if (band[w] == 0) rays[0].fired = rays[1].fired = rays[2].fired = 0;
+      if ((band[w] | rays[0].parity | rays[1].parity | rays[2].parity) != 0) {
+        meet(w, rays);
+        active_.include(w);
       }
-      meet(w, rays);
+      words_[w] = rays;
     }
   }
 
  private:
   std::vector<ThreeWays> words_;
+  WordRange active_;  ///< Beyond, all is zero.
 };
 
 /// The inside bits of one ray along a row of bits. The first candidate of each run is where a carry that enters at the
@@ -106,112 +129,95 @@ class RowRay {
 
 enum class Way { Forward, Back };
 
+/// Whose rays are cast side by side: their rows are half a page, and what is known of them stays in a core's cache.
+constexpr std::int64_t kSheetsAtOnce = 4;
+
 class RayCaster {
  public:
-  RayCaster(const BitGrid& band, const EventStore& events, int rays, VoteGrid& votes)
-      : band_(band),
+  RayCaster(const BandBits& band, const EventStore& events, int rays, VoteGrid& votes)
+      : band_(band.bits),
+        ranges_(band.ranges),
         events_(events),
         votes_(votes),
-        words_(band.words_per_row),
-        last_mask_(row_mask(band.frame.size[0], words_ - 1)),
+        words_(band.bits.words_per_row),
+        last_mask_(row_mask(band.bits.frame.size[0], words_ - 1)),
         both_ways_(rays == 26) {}
 
-  /// Sheets begin to end - 1 of a kind along z.
+  /// Casts sheets begin to end - 1 of a kind side by side, so that rows which lie side by side in memory are read
+  /// together.
   void cast_sheets(std::size_t kind, std::int64_t begin, std::int64_t end) const {
-    const auto [nx, ny, nz] = band_.frame.size;
-    Scratch scratch(words_, nz);
-    for (auto i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
-      cast_sheet(sheet_along_z(kind, i, ny, nz), scratch);
+    const int rows = count_sheets(kind, band_.frame).rows;
+    std::vector<SheetRays> sheets;
+    for (auto n = static_cast<int>(begin); n < static_cast<int>(end); ++n)
+      sheets.push_back({nth_sheet(kind, n, band_.frame), RayFront(words_)});
+    for (int i = 0; i < rows; ++i)
+      for (SheetRays& rays : sheets) enter_row<Way::Forward>(rays, i);
+    if (!both_ways_) return;
+    for (SheetRays& rays : sheets) rays.front.reset();
+    for (int i = rows; i-- > 0;)
+      for (SheetRays& rays : sheets) enter_row<Way::Back>(rays, i);
   }
 
-  /// All rays that stay in layers begin to end - 1.
-  void cast_layers(std::int64_t begin, std::int64_t end) const {
-    const int ny = band_.frame.size[1];
-    Scratch scratch(words_, ny);
-    for (auto z = static_cast<int>(begin); z < static_cast<int>(end); ++z) {
-      cast_sheet({kSheetKinds - 1, 0, z, ny}, scratch);
-      for (int y = 0; y < ny; ++y) cast_along_x(y, z, scratch.tally.data());
-    }
+  /// The rays along x of the rows of layers begin to end - 1.
+  void cast_along_x(std::int64_t begin, std::int64_t end) const {
+    for (auto z = static_cast<int>(begin); z < static_cast<int>(end); ++z)
+      for (int y = 0; y < band_.frame.size[1]; ++y) cast_along_row(y, z);
   }
 
  private:
-  /// Of a sheet whose rays are on their way.
-  struct Scratch {
-    Scratch(std::size_t words, int rows) : front(words), tally(words * static_cast<std::size_t>(rows)) {}
+  struct SheetRays {
+    Sheet sheet;
     RayFront front;
-    std::vector<Tally> tally;  ///< (row of the sheet, word): votes that are not in the grid yet.
   };
 
-  void cast_sheet(const Sheet& sheet, Scratch& scratch) const {
-    const auto step = kSheetSteps[sheet.kind];
-    const auto row_at = [&](int i, Tally*& tally) {
-      tally = scratch.tally.data() + words_ * static_cast<std::size_t>(i);
-      return std::array<int, 2>{sheet.y + i * step[0], sheet.z + i * step[1]};
-    };
-    Tally* tally = nullptr;
-    scratch.front.reset();
-    for (int i = 0; i < sheet.count; ++i) {
-      const auto [y, z] = row_at(i, tally);
-      enter_row<Way::Forward>(sheet.kind, y, z, scratch.front, tally);
-    }
-    scratch.front.reset();
-    for (int i = sheet.count; i-- > 0;) {
-      const auto [y, z] = row_at(i, tally);
-      if (both_ways_) enter_row<Way::Back>(sheet.kind, y, z, scratch.front, tally);
-      vote(y, z, tally);
-    }
-  }
-
+  /// Row `i` of the sheet.
   template <Way way>
-  void enter_row(std::size_t kind, int y, int z, RayFront& front, Tally* tally) const {
-    const std::uint64_t* band = band_.words.data() + band_.row(y, z);
-    const auto events = events_.sheet_row(kind, y, z);
-    front.enter_row(band, last_mask_, [&](std::size_t w, ThreeWays& rays) {
+  void enter_row(SheetRays& rays, int i) const {
+    const auto [y, z] = rays.sheet.row(i);
+    if (!band_.frame.contains(0, y, z)) return;
+    const std::size_t row = band_.row(y, z);
+    const std::uint64_t* band = band_.words.data() + row;
+    const auto events = events_.sheet_row(rays.sheet.kind, y, z);
+    VoteWord* votes = votes_.words.data() + row;
+    rays.front.enter_row(band, ranges_[row / words_], last_mask_, [&](std::size_t w, ThreeWays& three) {
       if (band[w] == 0) {
-        tally[w] = tally[w] + tally_of(rays[0].parity, rays[1].parity, rays[2].parity);
+        add_votes(votes[w], three[0].parity, three[1].parity, three[2].parity);
         return;
       }
-      const SheetEvents& axes = events[w];
-      const auto meet = [&](std::size_t i) {
+      const kernel::SheetEvents& axes = events[w];
+      const auto meet = [&](std::size_t k) {
         // Rays that go back by dx a row are those of the axis that goes forward by -dx, met from its other end.
-        const AxisEvents& axis = axes[way == Way::Forward ? i : 2 - i];
-        return enter(rays[i], band[w], way == Way::Forward ? axis.ahead : axis.behind, axis.lowest);
+        const kernel::AxisEvents& axis = axes[way == Way::Forward ? k : 2 - k];
+        return enter(three[k], band[w], way == Way::Forward ? axis.ahead : axis.behind, axis.lowest);
       };
-      tally[w] = tally[w] + tally_of(meet(0), meet(1), meet(2));
+      add_votes(votes[w], meet(0), meet(1), meet(2));
     });
   }
 
-  void cast_along_x(int y, int z, Tally* tally) const {
-    const std::uint64_t* band = band_.words.data() + band_.row(y, z);
-    if (std::all_of(band, band + words_, [](std::uint64_t v) { return v == 0; })) return;
+  void cast_along_row(int y, int z) const {
+    const std::size_t row = band_.row(y, z);
+    const std::uint64_t* band = band_.words.data() + row;
+    const WordRange reach = ranges_[row / words_];
+    if (reach.empty()) return;
     const auto events = events_.row_along_x(y, z);
+    const auto vote = [&](std::size_t w, std::uint64_t inside) {
+      if (inside != 0) add_votes(votes_.words[row + w], inside & row_mask(band_.frame.size[0], w), 0, 0);
+    };
     RowRay forward;
-    for (std::size_t w = 0; w < words_; ++w) {
-      const AxisEvents& axis = events[w];
-      tally[w].ones = forward.enter(band[w], axis.ahead, axis.lowest) & row_mask(band_.frame.size[0], w);
+    for (std::size_t w = reach.begin; w < words_; ++w) {
+      const kernel::AxisEvents& axis = events[w];
+      vote(w, forward.enter(band[w], axis.ahead, axis.lowest));
     }
     // A ray against x is a ray along x in the mirrored row, where the bits above the row's end come first.
     RowRay back;
-    for (std::size_t w = words_; both_ways_ && w-- > 0;) {
-      const AxisEvents& axis = events[w];
-      const std::uint64_t inside =
-          reversed(back.enter(reversed(band[w]), reversed(axis.behind), reversed(axis.lowest)));
-      tally[w] = tally[w] + Tally{inside & row_mask(band_.frame.size[0], w)};
-    }
-    vote(y, z, tally);
-  }
-
-  /// Moves what the rays say of a row into the grid.
-  void vote(int y, int z, Tally* tally) const {
-    VoteWord* votes = votes_.words.data() + band_.row(y, z);
-    for (std::size_t w = 0; w < words_; ++w) {
-      if ((tally[w].ones | tally[w].twos | tally[w].fours) == 0) continue;
-      add(votes[w], tally[w]);
-      tally[w] = {};
+    for (std::size_t w = reach.end; both_ways_ && w-- > 0;) {
+      const kernel::AxisEvents& axis = events[w];
+      vote(w, reversed(back.enter(reversed(band[w]), reversed(axis.behind), reversed(axis.lowest))));
     }
   }
 
   const BitGrid& band_;
+  const std::vector<WordRange>& ranges_;
   const EventStore& events_;
   VoteGrid& votes_;
   std::size_t words_;
@@ -221,21 +227,21 @@ class RayCaster {
 
 }  // namespace
 
-void cast_rays(const BitGrid& band, const EventStore& events, int rays, VoteGrid& votes, StageWatch& watch,
+void cast_rays(const BandBits& band, const EventStore& events, int rays, VoteGrid& votes, StageWatch& watch,
                double begin, double end) {
   const RayCaster caster(band, events, rays, votes);
-  const int ny = band.frame.size[1], nz = band.frame.size[2];
-  const auto enter_part = [&](std::size_t i) {
-    const double share = (end - begin) / kSheetKinds, from = begin + share * static_cast<double>(i);
+  const GridFrame& frame = band.bits.frame;
+  for (std::size_t kind = 0; kind < kernel::kSheetKinds; ++kind) {
+    const double share = (end - begin) / kernel::kSheetKinds, from = begin + share * static_cast<double>(kind);
     watch.enter_part(from, from + share);
-  };
-  for (std::size_t kind = 0; kind + 1 < kSheetKinds; ++kind) {
-    enter_part(kind);
-    parallel_for(kSheetSteps[kind][0] == 0 ? ny : ny + nz - 1, 2, watch,
-                 [&](std::int64_t first, std::int64_t last) { caster.cast_sheets(kind, first, last); });
+    // Sheets in a layer are rows that follow each other anyway.
+    const bool in_layer = kernel::kSheetSteps[kind][1] == 0;
+    parallel_for(count_sheets(kind, frame).sheets, in_layer ? 1 : kSheetsAtOnce, watch,
+                 [&](std::int64_t first, std::int64_t last) {
+                   caster.cast_sheets(kind, first, last);
+                   if (in_layer) caster.cast_along_x(first, last);
+                 });
   }
-  enter_part(kSheetKinds - 1);
-  parallel_for(nz, 2, watch, [&](std::int64_t first, std::int64_t last) { caster.cast_layers(first, last); });
 }
 
 }  // namespace tetsoup

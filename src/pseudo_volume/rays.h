@@ -2,17 +2,18 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "pseudo_volume/band_bits.h"
 #include "pseudo_volume/event_store.h"
 #include "pseudo_volume/votes.h"
 #include "tetsoup/pseudo_volume.h"
 
 namespace tetsoup {
 
-/// Counts, for every voxel, the rays that call it inside, with volume events where `band` is set.
+/// Counts, for every voxel, the rays that call it inside, with volume events in the band.
 /// @param events  Reaches at least as far as the band.
 /// @param votes   On the band's grid; all zero before.
 /// The watch's current part is covered from `begin` to `end`.
-void cast_rays(const BitGrid& band, const EventStore& events, int rays, VoteGrid& votes, StageWatch& watch,
+void cast_rays(const BandBits& band, const EventStore& events, int rays, VoteGrid& votes, StageWatch& watch,
                double begin, double end);
 
 }  // namespace tetsoup

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "base/bits.h"
@@ -58,8 +57,8 @@ struct Share {
   std::uint64_t some = 0, all = 0;
   void operator+=(const Share& other) { some += other.some, all += other.all; }
   void count(std::uint64_t bits, std::uint64_t of_these) {
-    all += static_cast<std::uint64_t>(std::popcount(bits));
-    some += static_cast<std::uint64_t>(std::popcount(bits & of_these));
+    all += bit_count(bits);
+    some += bit_count(bits & of_these);
   }
 };
 
@@ -122,9 +121,11 @@ SoupMarks mark_soup(const BlockGrid& distance, StageWatch& watch) {
   const Unpadded unpadded(frame);
   parallel_for(row_count(frame), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     for_rows(frame, begin, end, [&](int y, int z, std::size_t row) {
-      for (BitGrid& bits : marks)
-        for (std::size_t w = 0; w < bits.words_per_row; ++w)
-          bits.words[row * bits.words_per_row + w] &= unpadded.has_row(y, z) ? unpadded[w] : 0;
+      const bool counts = unpadded.has_row(y, z);
+      for (BitGrid& bits : marks) {
+        std::uint64_t* words = bits.words.data() + row * bits.words_per_row;
+        for (std::size_t w = 0; w < bits.words_per_row; ++w) words[w] &= counts ? unpadded[w] : 0;
+      }
     });
   });
   return {std::move(marks[0]), std::move(marks[1]), std::move(marks[2])};
@@ -147,7 +148,7 @@ VoteStatistics count_votes(const VoteGrid& votes, int rays, BitGrid& inside, Sta
             const std::uint64_t in_box = in[w] & unpadded[w];
             sum.votes += sum_votes(words[w], unpadded[w]);
             if (in_box == 0) continue;
-            sum.voxels_in += static_cast<std::uint64_t>(std::popcount(in_box));
+            sum.voxels_in += bit_count(in_box);
             sum.votes_in += sum_votes(words[w], in_box);
           }
         });

@@ -1,42 +1,28 @@
 // Arithmetic on the votes of 64 voxels at once.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
+#include "base/bits.h"
 #include "tetsoup/pseudo_volume.h"
 
 namespace tetsoup {
 
 using VoteWord = VoteGrid::Word;
 
-/// A number below 8 for each of 64 voxels, bit-sliced.
-struct Tally {
-  std::uint64_t ones = 0, twos = 0, fours = 0;
-};
-
-/// How many of three rays are inside.
-inline Tally tally_of(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-  return {a ^ b ^ c, (a & b) | (c & (a ^ b)), 0};
-}
-
-/// Sum of two tallies below 4.
-inline Tally operator+(const Tally& a, const Tally& b) {
-  const std::uint64_t carry = a.ones & b.ones;
-  return {a.ones ^ b.ones, a.twos ^ b.twos ^ carry, (a.twos & b.twos) | (carry & (a.twos ^ b.twos))};
-}
-
-inline void add(VoteWord& votes, const Tally& more) {
+/// Adds the votes of three rays: for each the voxels it calls inside.
+inline void add_votes(VoteWord& votes, std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  const std::uint64_t ones = a ^ b ^ c, twos = (a & b) | (c & (a ^ b));
   auto& [s0, s1, s2, s3, s4] = votes.slices;
-  const std::uint64_t c0 = s0 & more.ones;
-  s0 ^= more.ones;
-  const std::uint64_t x1 = s1 ^ more.twos, c1 = (s1 & more.twos) | (c0 & x1);
-  s1 = x1 ^ c0;
-  const std::uint64_t x2 = s2 ^ more.fours, c2 = (s2 & more.fours) | (c1 & x2);
-  s2 = x2 ^ c1;
-  const std::uint64_t c3 = s3 & c2;
-  s3 ^= c2;
-  s4 ^= c3;
+  const std::uint64_t carry0 = s0 & ones;
+  s0 ^= ones;
+  const std::uint64_t sum1 = s1 ^ twos, carry1 = (s1 & twos) | (carry0 & sum1);
+  s1 = sum1 ^ carry0;
+  const std::uint64_t carry2 = s2 & carry1;
+  s2 ^= carry1;
+  const std::uint64_t carry3 = s3 & carry2;
+  s3 ^= carry2;
+  s4 ^= carry3;
 }
 
 /// Voxels with any vote at all.
@@ -59,8 +45,7 @@ inline std::uint64_t votes_above(const VoteWord& votes, unsigned limit) {
 /// Sum of the votes of the voxels in `mask`.
 inline std::uint64_t sum_votes(const VoteWord& votes, std::uint64_t mask) {
   std::uint64_t total = 0;
-  for (std::size_t i = 0; i < votes.slices.size(); ++i)
-    total += static_cast<std::uint64_t>(std::popcount(votes.slices[i] & mask)) << i;
+  for (std::size_t i = 0; i < votes.slices.size(); ++i) total += bit_count(votes.slices[i] & mask) << i;
   return total;
 }
 
