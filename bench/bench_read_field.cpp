@@ -1,6 +1,7 @@
 // read(field): the time in which this machine streams a float field of 256^3 voxels once through all its cores. No
 // stage that looks at every voxel of a dense field can be faster, so stages are given as multiples of it.
 #include <array>
+#include <atomic>
 #include <barrier>
 #include <thread>
 
@@ -28,7 +29,7 @@ void read_field(benchmark::State& state, int thread_count) {
   const std::vector<float> field(kFieldSize, 1.0F);
   const std::size_t share = kFieldSize / static_cast<std::size_t>(thread_count);
   std::barrier gate(thread_count);
-  bool done = false;
+  std::atomic<bool> done = false;
   const auto read_share = [&](int thread) {
     benchmark::DoNotOptimize(sum_of(field.data() + share * static_cast<std::size_t>(thread), share));
   };

@@ -118,6 +118,8 @@ def run_benchmarks(program, source, pattern, voxels, repetitions, timeout):
                            f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.05",
                            f"--benchmark_out={out}", "--benchmark_out_format=json"], timeout)
         rows = parse_benchmarks(out.read_text()) if out.exists() else []
+    if len(rows) == 1:
+        rows[0].peak_mb = child.peak_mb
     if child.code is None:
         print(f"    stopped after {timeout:.0f} s")
         if not rows:
