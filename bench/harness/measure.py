@@ -125,23 +125,23 @@ def run_benchmarks(program, source, pattern, voxels, repetitions, timeout):
         if not rows:
             rows.append(Row(re.match(r"\^?\(?(\w+)", pattern).group(1), voxels=voxels, note=f"> {timeout:.0f} s"))
     elif child.code != 0:
-        raise SystemExit(f"tetsoup_bench failed ({child.code}): {last_line(child.text)}")
+        print(f"    {pattern} FAILED ({child.code}): {last_line(child.text)}")
     return rows
 
 
 # --- the tool, file to file ------------------------------------------------------------------------------------------
 
 def run_tool(tool, source, arguments, timeout):
-    """One run of `tetsoup mesh`; returns the process and its report."""
+    """One run of `tetsoup mesh`; returns the process and its report, None if it was too slow or failed."""
     with tempfile.TemporaryDirectory() as folder:
         report = pathlib.Path(folder) / "report.json"
         child = run_child([tool, "mesh", source, "-o", f"{folder}/mesh.msh", "--json", report, "--quiet", *arguments],
                           timeout)
-        if child.code is None:
-            return child, None
-        if child.code != 0:
-            raise SystemExit(f"tetsoup mesh failed ({child.code}): {last_line(child.text)}")
-        return child, json.loads(report.read_text())
+        return child, json.loads(report.read_text()) if child.code == 0 else None
+
+
+def why_not(child, timeout):
+    return f"> {timeout:.0f} s" if child.code is None else f"failed ({child.code}): {last_line(child.text)}"
 
 
 def measure_tool(tool, source, soup, voxels, tets, repetitions, timeout):
@@ -150,7 +150,7 @@ def measure_tool(tool, source, soup, voxels, tets, repetitions, timeout):
     size = ["--voxels", str(voxels)]
     child, report = run_tool(tool, source, size, timeout)
     if report is None:
-        row.note = f"> {timeout:.0f} s"
+        row.note = why_not(child, timeout)
         return [row]
     if report["pseudo_volume"]["volume"] > 0:
         edge = report["lattice"]["cell_size"] * (report["tet_count"] / tets) ** (1 / 3)
@@ -160,8 +160,8 @@ def measure_tool(tool, source, soup, voxels, tets, repetitions, timeout):
                 for _ in range(repetitions)]
     _, report = run_tool(tool, source, size, timeout)
     good = [run for run in runs if run.code == 0]
-    if not good:
-        row.note = f"> {timeout:.0f} s"
+    if not good or report is None:
+        row.note = why_not(runs[-1], timeout)
         return [row]
     best = min(good, key=lambda run: run.seconds)
     row.best_ms, row.cpu_ms = best.seconds * 1e3, best.cpu_seconds * 1e3

@@ -54,11 +54,11 @@ class Peers:
 
     # --- running
 
-    def run(self, command, timeout=None):
+    def run(self, command):
         """Runs a peer; (process, its line of JSON or None, why not)."""
-        child = measure.run_child(command, timeout or self.timeout)
+        child = measure.run_child(command, self.timeout)
         if child.code is None:
-            return child, None, f"> {timeout or self.timeout:.0f} s"
+            return child, None, f"> {self.timeout:.0f} s"
         found = re.findall(r"^\{.*\}$", child.text, re.MULTILINE)
         if child.code != 0 or not found:
             why = "crashed" if child.code < 0 else "failed"
@@ -71,8 +71,8 @@ class Peers:
         grid = f"{row.voxels}^3" if row.voxels else ""
         print(f"    {row.what:48} {row.soup} {grid} {row.note or tables.ms(row.best_ms) + ' ms'}", flush=True)
 
-    def timed_row(self, what, kind, voxels, command, timeout=None):
-        child, answer, why = self.run(command, timeout)
+    def timed_row(self, what, kind, voxels, command):
+        child, answer, why = self.run(command)
         row = Row(what, kind, voxels, note=why)
         row.peak_mb = child.peak_mb
         if answer:
@@ -94,9 +94,9 @@ class Peers:
 
     def grid_of(self, kind, voxels):
         """Our grid over a soup as nx ny nz ox oy oz h, and the largest distance in voxels."""
-        _, report = measure.run_tool(self.session.tool, self.soup(kind), ["--voxels", str(voxels)], OWN_TIMEOUT)
+        child, report = measure.run_tool(self.session.tool, self.soup(kind), ["--voxels", str(voxels)], OWN_TIMEOUT)
         if report is None:
-            raise SystemExit(f"tetsoup takes longer than {OWN_TIMEOUT} s at {voxels}^3")
+            raise SystemExit(f"tetsoup at {voxels}^3: {measure.why_not(child, OWN_TIMEOUT)}")
         grid = report["grid"]
         words = [str(value) for value in (*grid["size"], *grid["origin"], grid["voxel_size"])]
         return words, grid["d_max"] / grid["voxel_size"]
@@ -176,7 +176,10 @@ class Peers:
     def own_mesh(self, kind, voxels):
         mesh = self.folder / f"own-{voxels}-{kind}.mesh"
         size = ["--voxels", str(voxels)]
-        _, report = measure.run_tool(self.session.tool, self.soup(kind), size, self.timeout)
+        child, report = measure.run_tool(self.session.tool, self.soup(kind), size, self.timeout)
+        if report is None:
+            self.add(Row(f"mesh: tetsoup, {voxels}^3", kind, note=measure.why_not(child, self.timeout)))
+            return
         edge = report["lattice"]["cell_size"] * (report["tet_count"] / TETS) ** (1 / 3)
         command = [self.session.tool, "mesh", self.soup(kind), "-o", mesh, "--quiet", *size, "--cell-size", f"{edge:.9g}"]
         runs = [measure.run_child(command, self.timeout) for _ in range(3)]
@@ -186,13 +189,13 @@ class Peers:
         self.score(row, mesh)
         self.add(row)
 
-    def python_mesh(self, what, name, kind, source, before=None, timeout=None):
+    def python_mesh(self, what, name, kind, source, before=None):
         """`before` is the row of the wrap that the mesher starts from; its time counts."""
         mesh = self.folder / f"{name}-{kind}.mesh"
         mesh.unlink(missing_ok=True)
         command = [self.python, self.scripts / "meshers.py", name, source, mesh] if name != "cgal_mesh" else \
             [self.cpp / "cgal_mesh", source, mesh, str(MESH_PARTS)]
-        child, answer, why = self.run(command, timeout)
+        child, answer, why = self.run(command)
         row = Row(what, kind, 0, note=why, peak_mb=max(child.peak_mb, before.peak_mb if before else 0))
         if answer:
             row.best_ms = row.median_ms = answer["seconds"] * 1e3 + (before.best_ms if before else 0)
@@ -211,13 +214,15 @@ class Peers:
                 for what, name in [("CGAL Mesh_3", "cgal_mesh"), ("TetGen", "tetgen"), ("Gmsh HXT", "gmsh")]:
                     if self.has(name) and row.best_ms is not None:
                         self.python_mesh(f"mesh: alpha wrap + {what}", name, kind, wrap, row)
-            for what, name in [("TetGen, raw", "tetgen"), ("Gmsh HXT, raw", "gmsh")]:
-                if self.has(name):
-                    self.python_mesh(f"mesh: {what}", name, kind, self.soup(kind))
-            if self.has("pytetwild"):
-                self.python_mesh("mesh: fTetWild, coarse", "ftetwild-coarse", kind, self.soup(kind))
+        raw = [("TetGen, raw", "tetgen", "tetgen"), ("Gmsh HXT, raw", "gmsh", "gmsh"),
+               ("fTetWild, coarse", "ftetwild-coarse", "pytetwild")]
+        for what, name, need in raw if not quick else raw[:2]:
+            for kind in KINDS if self.has(need) else []:
+                self.python_mesh(f"mesh: {what}", name, kind, self.soup(kind))
+                if self.session.rows[-1].note.startswith(">"):
+                    break  # what is too slow here is not tried on worse
         if self.has("pytetwild") and not quick:
-            self.python_mesh("mesh: fTetWild, default", "ftetwild", "o", self.soup("o"), timeout=3 * self.timeout)
+            self.python_mesh("mesh: fTetWild, default", "ftetwild", "o", self.soup("o"))
 
     def measure(self, quick):
         self.prepare()
@@ -310,7 +315,7 @@ def mesh_table(results):
         intact = rows[0]
         if intact is None:
             continue
-        ious = [f"{row.counters['iou']:.3f}" if row and "iou" in row.counters else row.note if row else "–" for row in rows]
+        ious = [f"{row.counters['iou']:.3f}" if row and "iou" in row.counters else row.note if row else "not tried" for row in rows]
         angle = intact.counters.get("min_dihedral")
         label = name.removeprefix("mesh: ")
         lines.append([f"**{label}**" if "tetsoup" in label else label, seconds(intact), ratio(intact, own.best_ms if own else None),
@@ -324,7 +329,7 @@ def mesh_table(results):
 def sections(peers, results):
     versions = ", ".join(f"{name} {version}" for name, version in sorted(peers.versions.items()))
     lines = [f"- versions: {versions or 'none'}", f"- not here, so left out: {', '.join(peers.missing) or 'nothing'}",
-             f"- given up after {peers.timeout:.0f} s (fTetWild's default after {3 * peers.timeout:.0f} s)"]
+             f"- given up after {peers.timeout:.0f} s, and then not tried on the inputs that follow"]
     found = [("peers", "Peers", "\n".join(lines), "\n".join(lines))]
     for name, title, table in [("peers-distance", "Distance field", distance_table(results, peers.sizes)),
                                ("peers-inside", "Inside or outside", inside_table(results, peers.sizes)),

@@ -33,7 +33,7 @@ def ms(value):
 
 def verdict(row, target):
     if target is None or row is None or row.best_ms is None:
-        return "" if target is None or row is None or not row.note else "no"
+        return ""
     if row.median_ms is not None and row.median_ms <= target:
         return "yes"
     return "best only" if row.best_ms <= target else "no"
@@ -42,9 +42,9 @@ def verdict(row, target):
 def timing_cells(results, row, target):
     """target, best, median, multiple of read(field), met."""
     if row is None:
-        return [ms(target), "–", "–", "–", ""]
+        return [ms(target), "given up", "–", "–", "" if target is None else "no"]
     if row.best_ms is None:
-        return [ms(target), row.note, "–", "–", verdict(row, target)]
+        return [ms(target), row.note, "–", "–", "" if target is None else "no"]
     field = results.read_field_ms()
     multiple = f"{row.best_ms / field:.2f}" if field else "–"
     return [ms(target), ms(row.best_ms), ms(row.median_ms), multiple, verdict(row, target)]
@@ -57,11 +57,12 @@ TIMES = ["target ms", "best ms", "median ms", "x read(field)", "met"]
 
 def stages_table(results):
     lines = []
+    measured = {row.voxels for row in results.rows}
     for label, what, sizes in targets.STAGES:
         for voxels in sorted({*sizes, *(results.sizes(what) if None not in sizes else [])}, key=lambda size: size or 0):
-            row = results.find(what, voxels or 0)
-            if row is None:
+            if (voxels or 0) not in measured:
                 continue
+            row = results.find(what, voxels or 0)
             tets = f", {targets.TOOL_TETS.get(voxels, targets.DEFAULT_TETS) // 1000}K tets" if what == "tool" else ""
             grid = f"{voxels}^3" if voxels else "–"
             lines.append([label + tets, grid, *timing_cells(results, row, sizes.get(voxels))])
