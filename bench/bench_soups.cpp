@@ -1,5 +1,6 @@
 #include "bench_soups.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -39,11 +40,14 @@ class ScratchFolder {
 
 std::filesystem::path g_input_path;
 
-Vec3 blend(const std::array<Vec3, 3>& corners, float u, float v) {
-  const float w = 1 - u - v;
-  return {w * corners[0].x + u * corners[1].x + v * corners[2].x,
-          w * corners[0].y + u * corners[1].y + v * corners[2].y,
-          w * corners[0].z + u * corners[1].z + v * corners[2].z};
+// The point with these weights, which sum to n. Sums run in the order of the corners.
+Vec3 blend(const std::array<Vec3, 3>& corners, const std::array<int, 3>& weights, int n) {
+  const auto along = [&](float Vec3::*axis) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += weights[i] * static_cast<double>(corners[i].*axis);
+    return static_cast<float>(sum / n);
+  };
+  return {along(&Vec3::x), along(&Vec3::y), along(&Vec3::z)};
 }
 
 // Cuts every triangle into n * n equal ones, unconnected, so that about `target` come out.
@@ -56,13 +60,11 @@ TriangleSoup subdivided(const TriangleSoup& soup, double target) {
     fine.vertices.insert(fine.vertices.end(), {a, b, c});
     fine.triangles.push_back({first, first + 1, first + 2});
   };
-  for (const Triangle& triangle : soup.triangles) {
+  for (Triangle triangle : soup.triangles) {
+    std::sort(triangle.begin(), triangle.end());  // so that neighbours agree on the points of the edge between them
     const std::array<Vec3, 3> corners{soup.vertices[triangle[0]], soup.vertices[triangle[1]],
                                       soup.vertices[triangle[2]]};
-    const auto point = [&](int i, int j) {
-      return blend(corners, static_cast<float>(i) / static_cast<float>(n),
-                   static_cast<float>(j) / static_cast<float>(n));
-    };
+    const auto point = [&](int i, int j) { return blend(corners, {n - i - j, i, j}, n); };
     for (int i = 0; i < n; ++i) {
       for (int j = 0; i + j < n; ++j) {
         add(point(i, j), point(i + 1, j), point(i, j + 1));
