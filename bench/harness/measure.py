@@ -42,11 +42,11 @@ class Child:
     text: str
 
 
-def run_child(command, timeout, env=None):
+def run_child(command, timeout, folder=None):
     """Runs a process to its end; peak memory is that of the process (and no less than this script's own, some 20 MB)."""
     with tempfile.TemporaryFile("w+") as out:
         start = time.perf_counter()
-        child = subprocess.Popen([str(part) for part in command], stdout=out, stderr=subprocess.STDOUT, env=env,
+        child = subprocess.Popen([str(part) for part in command], stdout=out, stderr=subprocess.STDOUT, cwd=folder,
                                  start_new_session=True)
         timed_out = False
 

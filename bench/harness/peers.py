@@ -56,7 +56,7 @@ class Peers:
 
     def run(self, command):
         """Runs a peer; (process, its line of JSON or None, why not)."""
-        child = measure.run_child(command, self.timeout)
+        child = measure.run_child(command, self.timeout, self.folder)  # some leave files where they run
         if child.code is None:
             return child, None, f"> {self.timeout:.0f} s"
         found = re.findall(r"^\{.*\}$", child.text, re.MULTILINE)
