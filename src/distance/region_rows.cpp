@@ -1,5 +1,6 @@
 #include "distance/region_rows.h"
 
+#include <bit>
 #include <cmath>
 
 #include "kernel/clip_rows.h"
@@ -42,21 +43,24 @@ void RegionRows::append(const FeatureRegion& region, std::uint32_t feature, std:
   const auto& [xs, ys, zs] = region.box;
   if (xs.begin >= xs.end || ys.begin >= ys.end || zs.begin >= zs.end) return;
   const BoundLists bounds(region);
-  const int padded = kernel::padded_rows(ys.end - ys.begin);
-  const auto room = static_cast<std::size_t>(padded) * static_cast<std::size_t>(zs.end - zs.begin);
-  if (begins_.size() < room) {
-    begins_.resize(room);
-    ends_.resize(room);
+  const int rows_in_layer = ys.end - ys.begin, layers = zs.end - zs.begin, groups = kernel::row_groups(rows_in_layer);
+  const auto room = static_cast<std::size_t>(groups) * static_cast<std::size_t>(layers);
+  if (some_.size() < room) {
+    begins_.resize(kernel::kRowGroup * room);
+    ends_.resize(kernel::kRowGroup * room);
+    some_.resize(room);
   }
   kernel::clip_rows({{bounds.lower.data(), bounds.lowers}, {bounds.upper.data(), bounds.uppers}, xs.end - xs.begin},
-                    ys.end - ys.begin, zs.end - zs.begin, begins_.data(), ends_.data());
-  const auto short_of = [](int v) { return static_cast<std::uint16_t>(v); };
-  std::size_t at = 0;
-  for (int z = zs.begin; z < zs.end; ++z) {
-    for (int y = ys.begin; y < ys.begin + padded; ++y, ++at) {
-      if (begins_[at] >= ends_[at] || y >= ys.end) continue;
-      rows.push_back(
-          {feature, short_of(y), short_of(z), short_of(xs.begin + begins_[at]), short_of(xs.begin + ends_[at])});
+                    rows_in_layer, layers, begins_.data(), ends_.data(), some_.data());
+  const auto index = [](int v) { return static_cast<std::uint16_t>(v); };
+  for (std::size_t group = 0; group < room; ++group) {
+    const int z = zs.begin + static_cast<int>(group) / groups;
+    const int y = ys.begin + static_cast<int>(group) % groups * kernel::kRowGroup;
+    for (unsigned rest = some_[group]; rest != 0; rest &= rest - 1) {
+      const int row = std::countr_zero(rest);
+      const std::size_t at = kernel::kRowGroup * group + static_cast<std::size_t>(row);
+      if (y + row < ys.end)
+        rows.push_back({feature, index(y + row), index(z), index(xs.begin + begins_[at]), index(xs.begin + ends_[at])});
     }
   }
 }

@@ -20,7 +20,8 @@ class RegionRows {
   void append(const FeatureRegion& region, std::uint32_t feature, std::vector<FeatureRow>& rows);
 
  private:
-  std::vector<std::int32_t> begins_, ends_;  ///< Scratch.
+  std::vector<std::int32_t> begins_, ends_;  ///< Scratch, as `some_`.
+  std::vector<std::uint8_t> some_;
 };
 
 }  // namespace tetsoup

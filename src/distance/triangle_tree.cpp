@@ -9,7 +9,7 @@
 namespace tetsoup {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 2, kSlabTriangles = 64;
+constexpr std::uint32_t kLeafSize = 2;
 constexpr int kMaxDepth = 96;  ///< 48 bits of the code, then halves of what shares a code.
 /// A box is skipped only if it is farther than the best by more than rounding, so that no exact nearest is lost.
 constexpr float kSlack = 1.0F + 0x1p-14F;
@@ -40,12 +40,7 @@ TriangleTree::TriangleTree(const SoupFeatures& features, StageWatch& watch) : fe
 std::uint32_t TriangleTree::build(const std::vector<MortonEntry>& sorted, std::uint32_t begin, std::uint32_t end) {
   const auto self = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({features_.corners[features_.triangles[order_[begin]][0]],
-                    features_.corners[features_.triangles[order_[begin]][0]],
-                    {},
-                    -kernel::kBeyond,
-                    kernel::kBeyond,
-                    begin,
-                    end - begin});
+                    features_.corners[features_.triangles[order_[begin]][0]], begin, end - begin});
   if (end - begin <= kLeafSize) {
     Node& leaf = nodes_[self];
     for (std::uint32_t i = begin; i < end; ++i) {
@@ -54,54 +49,19 @@ std::uint32_t TriangleTree::build(const std::vector<MortonEntry>& sorted, std::u
         leaf.hi = max(leaf.hi, features_.corners[corner]);
       }
     }
-    fit_slab(leaf, begin, end);
     return self;
   }
   const std::uint32_t middle = morton_split(sorted, begin, end);
   const std::uint32_t first = build(sorted, begin, middle), second = build(sorted, middle, end);
-  nodes_[self] = {min(nodes_[first].lo, nodes_[second].lo),
-                  max(nodes_[first].hi, nodes_[second].hi),
-                  {},
-                  -kernel::kBeyond,
-                  kernel::kBeyond,
-                  second,
-                  0};
-  if (end - begin <= kSlabTriangles) fit_slab(nodes_[self], begin, end);
+  nodes_[self] = {min(nodes_[first].lo, nodes_[second].lo), max(nodes_[first].hi, nodes_[second].hi), second, 0};
   return self;
-}
-
-void TriangleTree::fit_slab(Node& node, std::uint32_t begin, std::uint32_t end) const {
-  Vec3d sum;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const Vec3d n = to_double(features_.faces[order_[i]].normal);
-    sum += dot(sum, n) < 0 ? n * -1 : n;
-  }
-  const double size = length(sum);
-  if (!(size > 0)) return;
-  node.normal = to_float(sum * (1 / size));
-  node.below = kernel::kBeyond;
-  node.above = -kernel::kBeyond;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    for (const std::uint32_t corner : features_.triangles[order_[i]]) {
-      const Vec3& c = features_.corners[corner];
-      const float at = c.x * node.normal.x + c.y * node.normal.y + c.z * node.normal.z;
-      node.below = std::min(node.below, at);
-      node.above = std::max(node.above, at);
-    }
-  }
-  const float slack = 1e-6F * (std::abs(node.below) + std::abs(node.above)) + 1e-3F;
-  node.below -= slack;
-  node.above += slack;
 }
 
 float TriangleTree::squared_distance(const Node& node, float x, float y, float z) {
   const float dx = std::max({node.lo.x - x, x - node.hi.x, 0.0F});
   const float dy = std::max({node.lo.y - y, y - node.hi.y, 0.0F});
   const float dz = std::max({node.lo.z - z, z - node.hi.z, 0.0F});
-  const float box = dx * dx + dy * dy + dz * dz;
-  const float at = x * node.normal.x + y * node.normal.y + z * node.normal.z;
-  const float off = std::max({node.below - at, at - node.above, 0.0F});
-  return std::max(box, off * off);
+  return dx * dx + dy * dy + dz * dz;
 }
 
 float TriangleTree::squared_distance(std::size_t triangle, float x, float y, float z) const {

@@ -22,16 +22,12 @@ class TriangleTree {
   float nearest_squared(float x, float y, float z, float bound) const;
 
  private:
-  /// A box around triangles, and a slab: tight where they lie flat, however tilted.
   struct Node {
     Vec3 lo, hi;
-    Vec3 normal;                                              ///< Of the slab; zero for none.
-    float below = -kernel::kBeyond, above = kernel::kBeyond;  ///< Its borders along `normal`.
     std::uint32_t next = 0;   ///< Inner: the second child (the first follows its parent). Leaf: first of `order_`.
     std::uint32_t count = 0;  ///< Triangles of a leaf; 0 for an inner node.
   };
   std::uint32_t build(const std::vector<MortonEntry>& sorted, std::uint32_t begin, std::uint32_t end);
-  void fit_slab(Node& node, std::uint32_t begin, std::uint32_t end) const;
   static float squared_distance(const Node& node, float x, float y, float z);
   float squared_distance(std::size_t triangle, float x, float y, float z) const;
 

@@ -18,14 +18,17 @@ struct RowBounds {
 
 inline constexpr int kRowGroup = 8;
 
-/// Rows of a layer that clip_rows() writes: `count` rounded up to whole groups.
-inline int padded_rows(int count) {
-  return (count + kRowGroup - 1) / kRowGroup * kRowGroup;
+/// Groups of rows in a layer.
+inline int row_groups(int rows) {
+  return (rows + kRowGroup - 1) / kRowGroup;
 }
 
-/// Cuts the rows (0..rows, 0..layers): begin is the first voxel not below any lower bound, end is one beyond the
-/// last voxel not above any upper bound; 0 and 0 if there is none between them.
-/// @param begin, end  (layers, padded_rows(rows))
-void clip_rows(const RowBounds& bounds, int rows, int layers, std::int32_t* begin, std::int32_t* end);
+/// Cuts the rows (0..rows, 0..layers): begin is the first voxel not below any lower bound, end is one beyond the last
+/// voxel not above any upper bound.
+/// @param begin, end  (layers, row_groups(rows), kRowGroup); 0 and 0 where nothing is left.
+/// @param some        (layers, row_groups(rows)): a bit for each row of the group of which something is left. Rows
+///                    beyond the last count too.
+void clip_rows(const RowBounds& bounds, int rows, int layers, std::int32_t* begin, std::int32_t* end,
+               std::uint8_t* some);
 
 }  // namespace tetsoup::kernel
