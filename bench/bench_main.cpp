@@ -78,6 +78,7 @@ void save_soup(const std::string& what) {
 void add_rows(const std::vector<int>& sizes) {
   add_read_field_rows();
   add_file_rows();
+  add_kernel_rows();
   for (const int voxels : sizes) {
     add_stage_rows({.voxels = voxels});
     add_full_distance_row({.voxels = voxels});

@@ -31,6 +31,7 @@ void add_row(const std::string& name, const Body& body) {
 
 void add_read_field_rows();                     ///< The yardstick: one pass over memory.
 void add_file_rows();                           ///< Reading, and cleaning what was read.
+void add_kernel_rows();                         ///< The inner loops, on every instruction set.
 void add_stage_rows(const Case& which);         ///< Every stage from distance to smoothing.
 void add_full_distance_row(const Case& which);  ///< Apart, since it takes long.
 void add_thread_rows(const Case& which);        ///< Distance and signs with 1, 2, all and four times all cores.

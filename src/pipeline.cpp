@@ -28,8 +28,17 @@ void check_memory(const CleanSoup& soup, const MeshOptions& options) {
   const std::size_t needed = grid_memory(frame), limit = *options.memory_limit;
   if (needed <= limit) return;
   const int longest = std::max({frame.size[0], frame.size[1], frame.size[2]}) - 2 * frame.pad;
-  const double shrink = std::cbrt(static_cast<double>(limit) / static_cast<double>(needed));
-  const int fits = std::max(1, static_cast<int>((longest + 2 * frame.pad) * shrink) - 2 * frame.pad - 1);
+  const auto needed_for = [&](int voxels) {
+    DistanceOptions smaller = options.distance;
+    smaller.voxel_size.reset();
+    smaller.voxels = voxels;
+    return grid_memory(make_grid(soup, smaller));
+  };
+  int fits = 1;
+  for (int too_many = longest; too_many - fits > 1;) {
+    const int middle = (fits + too_many) / 2;
+    (needed_for(middle) <= limit ? fits : too_many) = middle;
+  }
   char text[256];
   std::snprintf(text, sizeof text, "voxels = %d needs %.2f GB of memory, must be at most %d to fit into %.2f GB",
                 longest, static_cast<double>(needed) * 1e-9, fits, static_cast<double>(limit) * 1e-9);
@@ -39,8 +48,11 @@ void check_memory(const CleanSoup& soup, const MeshOptions& options) {
 }  // namespace
 
 std::size_t grid_memory(const GridFrame& frame) {
-  // Float distance; bit-sliced votes of two candidates, and a handful of bit grids.
-  return frame.voxel_count() * (4 + 1) + frame.voxel_count() / 8 * (2 * 5 + 7);
+  // Bit-sliced votes of two candidates and a handful of bit grids everywhere; distances and events near the soup, of
+  // which as much is expected as the box has surface. Measured on the models; soups that fill their box need more.
+  constexpr double kBytesPerVoxel = 2.5, kBytesPerSurfaceVoxel = 120;
+  const double x = frame.size[0], y = frame.size[1], z = frame.size[2];
+  return static_cast<std::size_t>(kBytesPerVoxel * x * y * z + kBytesPerSurfaceVoxel * 2 * (x * y + y * z + z * x));
 }
 
 Pipeline::Pipeline(const TriangleSoup& soup, const Progress& progress) {

@@ -169,6 +169,19 @@ def soups_table(results):
     return (header, lines) if any(line[2] != "–" for line in lines) else None
 
 
+def kernels_table(results):
+    names = {}
+    for row in results.rows:
+        if row.what.startswith("kernel_") and row.best_ms is not None:
+            kernel, target = row.what.removeprefix("kernel_").split("_on_")
+            names.setdefault(kernel, {})[target] = row.best_ms
+    targets_seen = list(dict.fromkeys(target for found in names.values() for target in found))
+    # A thousand calls in milliseconds are nanoseconds a call, times a thousand.
+    lines = [[kernel, *(ms(found.get(target) and found[target] * 1e3) for target in targets_seen)]
+             for kernel, found in names.items()]
+    return (["kernel, ns a call", *targets_seen], lines) if lines else None
+
+
 def breakdown_table(results):
     stages = ["read", "soup", "distance", "pseudo_volume", "lattice", "smooth", "quality", "write", "total"]
     lines = []
@@ -199,6 +212,7 @@ TABLES = [
     ("growth", "Growth with the grid", growth_table),
     ("threads", "Threads", threads_table),
     ("soups", "Few and many triangles", soups_table),
+    ("kernels", "Kernels on each instruction set", kernels_table),
     ("breakdown", "Where the tool's time goes", breakdown_table),
 ]
 

@@ -1,7 +1,7 @@
 // Where a corner, edge or face of the soup can be the nearest feature.
 //
 // A corner is nearest only where every edge that meets in it leads away, an edge only where every face beside it does,
-// a face only above and below itself [Mauch 2003, characteristic/scan conversion]. What is left is thin: on a closed
+// a face only above and below itself [Mauch03, characteristic/scan conversion]. What is left is thin: on a closed
 // surface the regions of all features hardly overlap.
 #pragma once
 

@@ -1,0 +1,79 @@
+// The inner loops, a thousand calls, on every instruction set this machine has: kernel_<what>_on_<target>.
+#include <array>
+#include <hwy/highway.h>
+#include <random>
+#include <vector>
+
+#include "bench_rows.h"
+#include "kernel/brick_query.h"
+#include "kernel/clip_rows.h"
+#include "kernel/cone_reach.h"
+#include "kernel/event_masks.h"
+
+namespace tetsoup::bench {
+
+namespace {
+
+template <class Body>
+void add_kernel_rows(const std::string& what, const Body& body) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    add_row("kernel_" + what + "_on_" + hwy::TargetName(target), [target, body](benchmark::State& state) {
+      hwy::SetSupportedTargetsForTest(target);
+      for (auto _ : state) body();
+      hwy::SetSupportedTargetsForTest(0);
+    });
+  }
+}
+
+std::vector<float> random_values(std::size_t count) {
+  std::minstd_rand random(1);
+  std::uniform_real_distribution<float> value(0, 1);
+  std::vector<float> values(count);
+  for (float& v : values) v = value(random);
+  return values;
+}
+
+constexpr int kCalls = 1000;  // of a kernel in one iteration of a row
+
+}  // namespace
+
+void add_kernel_rows() {
+  add_kernel_rows("find_events", [values = random_values(9 * 64 + kCalls)] {
+    for (std::size_t i = 0; i < kCalls; ++i) {
+      kernel::BlockNeighbours around{};
+      for (std::size_t row = 0; row < 9; ++row) around.rows[row] = values.data() + 64 * row + i;
+      benchmark::DoNotOptimize(kernel::find_events(around));
+    }
+  });
+  add_kernel_rows("clip_rows", [values = random_values(18)] {
+    std::array<kernel::RowBound, 6> bounds;
+    for (std::size_t i = 0; i < 6; ++i)
+      bounds[i] = {i < 3 ? values[3 * i] : 8 - values[3 * i], values[3 * i + 1] - 0.5F, values[3 * i + 2] - 0.5F};
+    std::array<std::int32_t, 32> begin, end;
+    std::array<std::uint8_t, 4> some;
+    for (int i = 0; i < kCalls; ++i) {
+      kernel::clip_rows({{bounds.data(), 3}, {bounds.data() + 3, 3}, 8}, 5, 4, begin.data(), end.data(), some.data());
+      benchmark::DoNotOptimize(some);
+    }
+  });
+  add_kernel_rows("cone_reach", [] {
+    const kernel::UpDown directions{{0, 0, 0, 0}, {1, -1, 0, 0}, {0, 0, 1, -1}};
+    const std::array<kernel::HalfSpace, 4> half_spaces{
+        {{{1, 0, 0}, 0.01F}, {{-1, 0, 0}, 0.01F}, {{0, 0.6F, 0.8F}, 0.01F}, {{0, -0.8F, 0.6F}, 0.01F}}};
+    for (int i = 0; i < kCalls; ++i) benchmark::DoNotOptimize(kernel::cone_reach(directions, half_spaces, 3));
+  });
+  add_kernel_rows("lower_brick", [values = random_values(24)] {
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < 8; ++i) points.push_back({20 + values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+    const std::vector<kernel::PointNode> nodes{{{20, 0, 0}, {21, 1, 1}, 0, 8}};
+    std::array<float, kernel::kBrick * kernel::kBrick * kernel::kBrick> squares;
+    for (int i = 0; i < kCalls; ++i) {
+      squares.fill(1e30F);
+      std::uint32_t hint = 0;
+      kernel::lower_brick({nodes, points}, i % 7, 0, 0, squares, hint);
+      benchmark::DoNotOptimize(squares);
+    }
+  });
+}
+
+}  // namespace tetsoup::bench
