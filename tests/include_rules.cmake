@@ -9,7 +9,7 @@ set(common_headers types error progress)
 set(common_folders base kernel)
 # Each third-party library of the core lives in one place.
 set(tbb_home "^src/base/parallel\\.(h|cpp)$")
-set(highway_home "^src/kernel/")
+set(highway_home "^(src/kernel/|bench/bench_kernels\\.cpp$)")
 set(eigen_home "^src/smooth/")
 
 # include_complaint(out path quote header): why the file `path` (relative to the root) may not include `header`, which
@@ -26,8 +26,8 @@ function(include_complaint out path quote header)
       return()
     endif()
   endforeach()
-  # Tests look behind every door.
-  if(path MATCHES "^tests/")
+  # Tests look behind every door, and one benchmark behind that of the kernels.
+  if(path MATCHES "^(tests/|bench/bench_kernels\\.cpp$)")
     return()
   endif()
 

@@ -40,10 +40,10 @@ IndexRange clamped_range(float lo, float hi, int size) {
 FeatureRegion corner_region(const SoupFeatures& features, std::uint32_t corner, float band, const GridFrame& frame) {
   FeatureRegion region;
   region.base = features.corners[corner];
-  const std::uint32_t first = features.first_spoke[corner], last = features.first_spoke[corner + 1];
-  const std::uint32_t stride = 1 + (last - first) / static_cast<std::uint32_t>(FeatureRegion::kMost);
-  for (std::uint32_t i = first; i < last; i += stride) {
-    const SoupFeatures::Edge& edge = features.edges[features.spokes[i]];
+  const std::span spokes = features.spokes[corner];
+  const std::size_t stride = 1 + spokes.size() / FeatureRegion::kMost;
+  for (std::size_t i = 0; i < spokes.size(); i += stride) {
+    const SoupFeatures::Edge& edge = features.edges[spokes[i]];
     const Vec3 away = minus(features.corners[edge.from == corner ? edge.to : edge.from], region.base);
     const float length = std::sqrt(dot(away, away)), gain = sure_gain(length, band);
     const float limit = std::max(std::sqrt(gain), gain / length);  // moving along the edge gains limit^2 or more

@@ -14,51 +14,48 @@ struct Side {
   bool operator<(const Side& other) const { return to != other.to ? to < other.to : id < other.id; }
 };
 
-/// Begin of every bucket of `counts`, and the end of the last.
-std::vector<std::uint32_t> bucket_begins(std::vector<std::uint32_t> counts) {
-  counts.push_back(0);
-  std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), 0U);
-  return counts;
+void find_edges(const std::vector<Triangle>& triangles, SoupFeatures& features, StageWatch& watch) {
+  Groups<Side> sides(features.corners.size(), [&](const auto& put) {
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t from = triangles[f][kSides[i][0]], to = triangles[f][kSides[i][1]];
+        if (from != to) put(from, Side{to, static_cast<std::uint32_t>(4 * f + i)});
+      }
+    }
+  });
+  const auto for_corners = [&](const auto& body) {
+    parallel_for(static_cast<std::int64_t>(sides.size()), 2048, watch, [&](std::int64_t begin, std::int64_t end) {
+      for (auto from = static_cast<std::size_t>(begin); from < static_cast<std::size_t>(end); ++from)
+        body(from, sides[from]);
+    });
+  };
+  std::vector<std::size_t> first_edge(sides.size() + 1);
+  for_corners([&](std::size_t from, std::span<Side> group) {
+    std::sort(group.begin(), group.end());
+    for (std::size_t i = 0; i < group.size(); ++i) first_edge[from] += i == 0 || group[i].to != group[i - 1].to;
+  });
+  std::exclusive_scan(first_edge.begin(), first_edge.end(), first_edge.begin(), std::size_t{0});
+  features.edges.resize(first_edge.back());
+  features.sides.resize(sides.items().size());
+  for_corners([&](std::size_t from, std::span<Side> group) {
+    const auto first_side = static_cast<std::uint32_t>(group.data() - sides.items().data());
+    std::size_t edge = first_edge[from];
+    for (std::uint32_t i = 0; i < group.size(); ++i) {
+      if (i == 0 || group[i].to != group[i - 1].to)
+        features.edges[edge++] = {static_cast<std::uint32_t>(from), group[i].to, first_side + i, first_side + i};
+      features.edges[edge - 1].last_side = first_side + i + 1;
+      features.sides[first_side + i] = group[i].id;
+    }
+  });
 }
 
-void find_edges(const std::vector<Triangle>& triangles, SoupFeatures& features) {
-  std::vector<std::uint32_t> counts(features.corners.size());
-  for (const Triangle& t : triangles)
-    for (const auto& [lower, higher] : kSides) counts[t[lower]] += t[lower] != t[higher];
-  const std::vector<std::uint32_t> begins = bucket_begins(counts);
-  std::vector<Side> sides(begins.back());
-  std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t from = triangles[f][kSides[i][0]], to = triangles[f][kSides[i][1]];
-      if (from != to) sides[next[from]++] = {to, static_cast<std::uint32_t>(4 * f + i)};
-    }
-  }
-  features.sides.reserve(sides.size());
-  features.edges.reserve(sides.size() / 2 + sides.size() / 32);
-  for (std::uint32_t from = 0; from < features.corners.size(); ++from) {
-    std::sort(sides.begin() + begins[from], sides.begin() + begins[from + 1]);
-    for (std::uint32_t i = begins[from]; i < begins[from + 1]; ++i) {
-      if (i == begins[from] || sides[i].to != sides[i - 1].to) features.edges.push_back({from, sides[i].to, i, i});
-      features.edges.back().last_side = i + 1;
-      features.sides.push_back(sides[i].id);
-    }
-  }
-}
-
-void find_spokes(SoupFeatures& features) {
-  std::vector<std::uint32_t> counts(features.corners.size());
-  for (const auto& e : features.edges) {
-    ++counts[e.from];
-    ++counts[e.to];
-  }
-  features.first_spoke = bucket_begins(std::move(counts));
-  features.spokes.resize(features.first_spoke.back());
-  std::vector<std::uint32_t> next = features.first_spoke;
-  for (std::uint32_t i = 0; i < features.edges.size(); ++i) {
-    features.spokes[next[features.edges[i].from]++] = i;
-    features.spokes[next[features.edges[i].to]++] = i;
-  }
+Groups<std::uint32_t> find_spokes(const SoupFeatures& features) {
+  return {features.corners.size(), [&](const auto& put) {
+            for (std::uint32_t i = 0; i < features.edges.size(); ++i) {
+              put(features.edges[i].from, i);
+              put(features.edges[i].to, i);
+            }
+          }};
 }
 
 }  // namespace
@@ -76,9 +73,9 @@ SoupFeatures find_features(const CleanSoup& soup, const GridFrame& frame, StageW
   features.triangles = triangles;
   features.corners = voxel_vertices(soup, frame);
   watch.step(0);
-  find_edges(triangles, features);
+  find_edges(triangles, features, watch);
   watch.step(0.3);
-  find_spokes(features);
+  features.spokes = find_spokes(features);
   watch.step(0.6);
   features.faces.resize(triangles.size());
   parallel_for(static_cast<std::int64_t>(triangles.size()), 4096, watch, [&](std::int64_t begin, std::int64_t end) {

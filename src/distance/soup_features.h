@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/groups.h"
 #include "base/parallel.h"
 #include "kernel/triangle_distance.h"
 #include "tetsoup/soup.h"
@@ -16,13 +17,12 @@ struct SoupFeatures {
     std::uint32_t from, to;               ///< Corners, the lower first.
     std::uint32_t first_side, last_side;  ///< Range in `sides`.
   };
-  std::span<const Triangle> triangles;     ///< Of the soup the features were found in.
-  std::vector<Vec3> corners;               ///< Voxel centres are the whole numbers.
-  std::vector<Edge> edges;                 ///< By lower corner.
-  std::vector<kernel::FacePlan> faces;     ///< One a triangle.
-  std::vector<std::uint32_t> sides;        ///< 4 face + side for the sides of all edges: side i of a FacePlan.
-  std::vector<std::uint32_t> first_spoke;  ///< Range in `spokes` of each corner; one more at the end.
-  std::vector<std::uint32_t> spokes;       ///< The edges that meet in a corner.
+  std::span<const Triangle> triangles;  ///< Of the soup the features were found in.
+  std::vector<Vec3> corners;            ///< Voxel centres are the whole numbers.
+  std::vector<Edge> edges;              ///< By lower corner.
+  std::vector<kernel::FacePlan> faces;  ///< One a triangle.
+  std::vector<std::uint32_t> sides;     ///< 4 face + side for the sides of all edges: side i of a FacePlan.
+  Groups<std::uint32_t> spokes;         ///< The edges that meet in each corner.
 };
 
 /// The soup on the grid: planned from double coordinates, so position and scale of the soup cost no precision.

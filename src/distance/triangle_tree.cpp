@@ -9,7 +9,7 @@
 namespace tetsoup {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 2;
+constexpr std::uint32_t kLeafSize = 4;
 constexpr int kMaxDepth = 96;  ///< 48 bits of the code, then halves of what shares a code.
 /// A box is skipped only if it is farther than the best by more than rounding, so that no exact nearest is lost.
 constexpr float kSlack = 1.0F + 0x1p-14F;
@@ -30,29 +30,34 @@ TriangleTree::TriangleTree(const SoupFeatures& features, StageWatch& watch) : fe
   });
   parallel_sort(sorted.begin(), sorted.end(), std::less<>());
   watch.step(0);
-  order_.reserve(count);
-  for (const MortonEntry& m : sorted) order_.push_back(m.index);
+  order_.resize(count);
+  std::vector<Node> boxes(count);  // of single triangles, side by side for the leaves
+  parallel_for(static_cast<std::int64_t>(count), 8192, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      order_[i] = sorted[i].index;
+      const auto [a, b, c] = features.triangles[order_[i]];
+      const Vec3 &p = features.corners[a], &q = features.corners[b], &r = features.corners[c];
+      boxes[i] = {min(p, min(q, r)), max(p, max(q, r)), 0, 0};
+    }
+  });
   nodes_.reserve(count);
-  build(sorted, 0, static_cast<std::uint32_t>(count));
+  build(sorted, boxes, 0, static_cast<std::uint32_t>(count));
   watch.step(0);
 }
 
-std::uint32_t TriangleTree::build(const std::vector<MortonEntry>& sorted, std::uint32_t begin, std::uint32_t end) {
+std::uint32_t TriangleTree::build(std::span<const MortonEntry> sorted, std::span<const Node> boxes, std::uint32_t begin,
+                                  std::uint32_t end) {
   const auto self = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({features_.corners[features_.triangles[order_[begin]][0]],
-                    features_.corners[features_.triangles[order_[begin]][0]], begin, end - begin});
+  nodes_.push_back({boxes[begin].lo, boxes[begin].hi, begin, end - begin});
   if (end - begin <= kLeafSize) {
-    Node& leaf = nodes_[self];
-    for (std::uint32_t i = begin; i < end; ++i) {
-      for (const std::uint32_t corner : features_.triangles[order_[i]]) {
-        leaf.lo = min(leaf.lo, features_.corners[corner]);
-        leaf.hi = max(leaf.hi, features_.corners[corner]);
-      }
+    for (const Node& box : boxes.subspan(begin, end - begin)) {
+      nodes_[self].lo = min(nodes_[self].lo, box.lo);
+      nodes_[self].hi = max(nodes_[self].hi, box.hi);
     }
     return self;
   }
   const std::uint32_t middle = morton_split(sorted, begin, end);
-  const std::uint32_t first = build(sorted, begin, middle), second = build(sorted, middle, end);
+  const std::uint32_t first = build(sorted, boxes, begin, middle), second = build(sorted, boxes, middle, end);
   nodes_[self] = {min(nodes_[first].lo, nodes_[second].lo), max(nodes_[first].hi, nodes_[second].hi), second, 0};
   return self;
 }

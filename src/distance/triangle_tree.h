@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/parallel.h"
@@ -27,7 +28,8 @@ class TriangleTree {
     std::uint32_t next = 0;   ///< Inner: the second child (the first follows its parent). Leaf: first of `order_`.
     std::uint32_t count = 0;  ///< Triangles of a leaf; 0 for an inner node.
   };
-  std::uint32_t build(const std::vector<MortonEntry>& sorted, std::uint32_t begin, std::uint32_t end);
+  std::uint32_t build(std::span<const MortonEntry> sorted, std::span<const Node> boxes, std::uint32_t begin,
+                      std::uint32_t end);
   static float squared_distance(const Node& node, float x, float y, float z);
   float squared_distance(std::size_t triangle, float x, float y, float z) const;
 

@@ -68,7 +68,7 @@ inline float edge_square(const EdgePlan& e, float x, float y, float z) {
   const float s = (px * e.along.x + py * e.along.y + pz * e.along.z) * e.inverse_square;
   const float dx = px - s * e.along.x, dy = py - s * e.along.y, dz = pz - s * e.along.z;
   const float square = dx * dx + dy * dy + dz * dz;
-  return (s > 0) & (s < 1) ? square : kBeyond;
+  return ((s > 0) & (s < 1)) ? square : kBeyond;
 }
 
 /// Squared distance to the plane where the nearest point lies within the triangle, else kBeyond.
