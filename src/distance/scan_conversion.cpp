@@ -12,17 +12,23 @@ namespace tetsoup {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 constexpr std::size_t kChunk = 2048;  ///< Features that one task cuts into rows.
+constexpr int kManyRows = 512;        ///< A region with more is cut anew in every slab, so that memory stays small.
 
-/// Rows of a chunk of features, by slab.
+struct LargeFeature {
+  std::uint32_t feature;
+  IndexRange layers;
+};
+
+/// A chunk of features: the rows of the small ones, by slab, and the large ones.
 struct ChunkRows {
   std::vector<FeatureRow> rows;
   std::vector<std::size_t> slab_begins;  ///< One more at the end.
+  std::vector<LargeFeature> large;
 };
 
 ChunkRows sorted_by_slab(const std::vector<FeatureRow>& rows, std::size_t slabs) {
-  ChunkRows sorted{std::vector<FeatureRow>(rows.size()), std::vector<std::size_t>(slabs + 1)};
+  ChunkRows sorted{std::vector<FeatureRow>(rows.size()), std::vector<std::size_t>(slabs + 1), {}};
   for (const FeatureRow& row : rows) ++sorted.slab_begins[row.z / BlockGrid::kSlab];
   std::exclusive_scan(sorted.slab_begins.begin(), sorted.slab_begins.end(), sorted.slab_begins.begin(), std::size_t{0});
   std::vector<std::size_t> next = sorted.slab_begins;
@@ -31,16 +37,16 @@ ChunkRows sorted_by_slab(const std::vector<FeatureRow>& rows, std::size_t slabs)
 }
 
 /// Features count on: faces first, then edges, then corners.
-template <class Face, class Edge, class Corner>
-void visit_feature(const SoupFeatures& features, std::size_t i, const Face& face, const Edge& edge,
-                   const Corner& corner) {
+FeatureRegion region_of(const SoupFeatures& features, std::size_t i, float band, const GridFrame& frame) {
   const std::size_t faces = features.faces.size(), edges = features.edges.size();
-  if (i < faces)
-    face(static_cast<std::uint32_t>(i));
-  else if (i < faces + edges)
-    edge(static_cast<std::uint32_t>(i - faces));
-  else
-    corner(static_cast<std::uint32_t>(i - faces - edges));
+  if (i < faces) return face_region(features, static_cast<std::uint32_t>(i), band, frame);
+  if (i < faces + edges) return edge_region(features, static_cast<std::uint32_t>(i - faces), band, frame);
+  return corner_region(features, static_cast<std::uint32_t>(i - faces - edges), band, frame);
+}
+
+bool is_large(const FeatureRegion& region) {
+  const auto size = [](const IndexRange& range) { return std::max(0, range.end - range.begin); };
+  return size(region.box[0]) > 0 && size(region.box[1]) * size(region.box[2]) > kManyRows;
 }
 
 std::vector<ChunkRows> cut_into_rows(const SoupFeatures& features, float band, const GridFrame& frame,
@@ -50,16 +56,17 @@ std::vector<ChunkRows> cut_into_rows(const SoupFeatures& features, float band, c
   parallel_for(static_cast<std::int64_t>(count), kChunk, watch, [&](std::int64_t begin, std::int64_t end) {
     RegionRows clip;
     std::vector<FeatureRow> rows;
+    std::vector<LargeFeature> large;
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const auto append = [&](const FeatureRegion& region) {
+      const FeatureRegion region = region_of(features, i, band, frame);
+      if (is_large(region))
+        large.push_back({static_cast<std::uint32_t>(i), region.box[2]});
+      else
         clip.append(region, static_cast<std::uint32_t>(i), rows);
-      };
-      visit_feature(
-          features, i, [&](std::uint32_t f) { append(face_region(features, f, band, frame)); },
-          [&](std::uint32_t e) { append(edge_region(features, e, band, frame)); },
-          [&](std::uint32_t c) { append(corner_region(features, c, band, frame)); });
     }
-    chunks[static_cast<std::size_t>(begin) / kChunk] = sorted_by_slab(rows, slabs);
+    ChunkRows& chunk = chunks[static_cast<std::size_t>(begin) / kChunk];
+    chunk = sorted_by_slab(rows, slabs);
+    chunk.large = std::move(large);
   });
   return chunks;
 }
@@ -76,6 +83,7 @@ class SlabSquares {
     touched_.assign(blocks, 0);
     if (values_.size() < blocks * kBlock) values_.resize(blocks * kBlock, kernel::kBeyond);
   }
+
   template <class Square>
   void lower(const FeatureRow& part, const Square& square) {
     const IndexRange xs{part.x_begin, part.x_end};
@@ -144,21 +152,18 @@ class SlabPool {
 };
 
 void lower(const SoupFeatures& features, const FeatureRow& row, SlabSquares& slab) {
-  visit_feature(
-      features, row.feature,
-      [&](std::uint32_t face) {
-        const kernel::FacePlan& plan = features.faces[face];
-        slab.lower(row, [&](float x, float y, float z) { return kernel::face_square(plan, x, y, z); });
-      },
-      [&](std::uint32_t edge) {
-        const SoupFeatures::Edge& e = features.edges[edge];
-        const kernel::EdgePlan plan = kernel::plan_edge(features.corners[e.from], features.corners[e.to]);
-        slab.lower(row, [&](float x, float y, float z) { return kernel::edge_square(plan, x, y, z); });
-      },
-      [&](std::uint32_t corner) {
-        const Vec3 at = features.corners[corner];
-        slab.lower(row, [&](float x, float y, float z) { return kernel::corner_square(at, x, y, z); });
-      });
+  const std::size_t faces = features.faces.size(), edges = features.edges.size();
+  if (row.feature < faces) {
+    const kernel::FacePlan& plan = features.faces[row.feature];
+    slab.lower(row, [&](float x, float y, float z) { return kernel::face_square(plan, x, y, z); });
+  } else if (row.feature < faces + edges) {
+    const SoupFeatures::Edge& e = features.edges[row.feature - faces];
+    const kernel::EdgePlan plan = kernel::plan_edge(features.corners[e.from], features.corners[e.to]);
+    slab.lower(row, [&](float x, float y, float z) { return kernel::edge_square(plan, x, y, z); });
+  } else {
+    const Vec3 at = features.corners[row.feature - faces - edges];
+    slab.lower(row, [&](float x, float y, float z) { return kernel::corner_square(at, x, y, z); });
+  }
 }
 
 }  // namespace
@@ -171,10 +176,24 @@ BlockGrid scan_convert(const SoupFeatures& features, const GridFrame& frame, flo
     const auto i = static_cast<std::size_t>(index);
     const int first = static_cast<int>(i) * BlockGrid::kSlab;
     SlabSquares slab = pool.take();
-    slab.cover({first, first + slab_layers(frame, i)}, frame.size[1], grid.blocks_per_row);
-    for (const ChunkRows& chunk : chunks)
+    const IndexRange layers{first, first + slab_layers(frame, i)};
+    slab.cover(layers, frame.size[1], grid.blocks_per_row);
+    RegionRows clip;
+    std::vector<FeatureRow> rows;
+    for (const ChunkRows& chunk : chunks) {
       for (std::size_t k = chunk.slab_begins[i]; k < chunk.slab_begins[i + 1]; ++k)
         lower(features, chunk.rows[k], slab);
+      for (const LargeFeature& large : chunk.large) {
+        if (large.layers.begin >= layers.end || large.layers.end <= layers.begin) continue;
+        FeatureRegion region = region_of(features, large.feature, band_voxels, frame);
+        region.box[2] = {std::max(large.layers.begin, layers.begin), std::min(large.layers.end, layers.end)};
+        rows.clear();
+        clip.append(region, large.feature, rows);
+        for (const FeatureRow& row : rows) lower(features, row, slab);
+      }
+      watch.poll();
+      if (watch.stopped()) return;
+    }
     slab.store(grid.slabs[i], band_voxels * band_voxels, static_cast<float>(frame.voxel_size));
     pool.give(std::move(slab));
   });
