@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kernel/targets.h"
 #include "shapes.h"
 #include "tetsoup/samples.h"
 #include "tetsoup/tetsoup.h"
@@ -189,6 +190,16 @@ TEST(MeshSoup, winding_order_and_threads_change_no_bit) {
 }
 
 /// The solid of 640 flat triangles itself overlaps the exact torus by 0.989 when sampled finely (docs/RESULTS.md).
+TEST(MeshSoup, the_instruction_set_changes_no_bit) {
+  const TriangleSoup soup = make_sample("robot");
+  const TetMesh usual = mesh_soup(soup, at_voxels(40));
+  for_each_simd_target([&](const std::string& target) {
+    const TetMesh mesh = mesh_soup(soup, at_voxels(40));
+    EXPECT_EQ(mesh.vertices, usual.vertices) << target;
+    EXPECT_EQ(mesh.tets, usual.tets) << target;
+  });
+}
+
 TEST(Paper, the_inside_of_the_torus_is_the_exact_torus_as_far_as_its_triangles_are) {
   Pipeline pipeline(make_sample("torus"));
   pipeline.run_until(Stage::PseudoVolume, at_voxels(150));

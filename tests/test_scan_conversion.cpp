@@ -130,6 +130,21 @@ TEST(ScanConversion, has_the_same_bits_on_every_instruction_set_and_thread_count
   set_thread_count(0);
 }
 
+TEST(ScanConversion, the_full_field_has_the_same_bits_on_every_instruction_set_and_thread_count) {
+  const CleanSoup soup = clean_soup(test::joined(make_sample("torus"), test::make_confetti(20, 0.3, 9)));
+  DistanceOptions options;
+  options.voxels = 45;
+  options.mode = DistanceMode::Full;
+  const BlockGrid usual = unsigned_distance(soup, options).distance;
+  for_each_simd_target(
+      [&](const std::string& target) { EXPECT_EQ(unsigned_distance(soup, options).distance, usual) << target; });
+  for (const int threads : {1, 2, 7}) {
+    set_thread_count(threads);
+    EXPECT_EQ(unsigned_distance(soup, options).distance, usual) << threads;
+  }
+  set_thread_count(0);
+}
+
 TEST(ScanConversion, the_tree_gives_the_bits_of_the_brute_force) {
   const CleanSoup soup = clean_soup(make_knot(40, 77, 5));
   const GridFrame frame = grid_over(soup, 20);
