@@ -99,8 +99,8 @@ struct PseudoVolume {
 /// distances.
 /// @return       Votes and inside bits on the field's grid. Bitwise the same for any thread count.
 /// @throws InvalidInput  if an option is out of range or the field's band is too narrow for it; Cancelled.
-/// Cost: O(voxels) bit operations, once per candidate of the automatic choice. 6 bits per voxel for the result; while it
-/// runs as much again, 6 bits per voxel more, and 5 bytes for every voxel of a word of 64 that has one in the band.
+/// Cost: O(voxels) bit operations, once per candidate of the automatic choice. 6 bits per voxel for the result; while
+/// it runs as much again, 6 bits per voxel more, and 5 bytes for every voxel of a word of 64 that has one in the band.
 PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptions& options = {},
                              const Progress& progress = {});
 
