@@ -104,6 +104,15 @@ TEST(Distance, band_matches_brute_force_and_ends_where_it_says) {
   }
 }
 
+TEST(Distance, a_band_beyond_what_is_scan_converted_matches_brute_force) {
+  const TriangleSoup soup = test::make_confetti(12, 0.1, 8);
+  const DistanceField field = make_field(soup, DistanceMode::Band, 40, 14);
+  expect_matches_brute_force(field, soup);
+  DistanceField widened = make_field(soup, DistanceMode::Band, 40, 3);
+  widen_distance(widened, clean_soup(soup), 14);
+  EXPECT_EQ(widened.distance, field.distance);
+}
+
 TEST(Distance, band_and_full_agree_to_the_bit_where_both_are_known) {
   const TriangleSoup soup = make_mixed(7);
   const DistanceField band = make_field(soup, DistanceMode::Band, 48), full = make_field(soup, DistanceMode::Full, 48);

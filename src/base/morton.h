@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <vector>
 
+#include "base/parallel.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
@@ -29,6 +32,19 @@ inline std::uint64_t morton_code(const Vec3& p) {
     return (v | v << 2) & 0x1249249249249249U;
   };
   return spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2;
+}
+
+/// The points point(0), ..., point(count - 1) in Morton order.
+template <class Point>
+std::vector<MortonEntry> morton_order(std::size_t count, const Point& point, StageWatch& watch) {
+  std::vector<MortonEntry> entries(count);
+  parallel_for(static_cast<std::int64_t>(count), 8192, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      entries[i] = {morton_code(point(i)), static_cast<std::uint32_t>(i)};
+  });
+  parallel_sort(entries.begin(), entries.end(), std::less<>());
+  watch.step(0);
+  return entries;
 }
 
 /// Where sorted entries [begin, end) fall apart: where the highest bit of their codes changes, so that both parts are

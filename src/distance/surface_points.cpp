@@ -37,12 +37,8 @@ std::vector<Vec3> surface_points(const SoupFeatures& features) {
 }
 
 PointTree::PointTree(const std::vector<Vec3>& points, StageWatch& watch) {
-  std::vector<MortonEntry> sorted(points.size());
-  parallel_for(static_cast<std::int64_t>(points.size()), 8192, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      sorted[i] = {morton_code(points[i]), static_cast<std::uint32_t>(i)};
-  });
-  parallel_sort(sorted.begin(), sorted.end(), std::less<>());
+  const std::vector<MortonEntry> sorted = morton_order(
+      points.size(), [&](std::size_t i) { return points[i]; }, watch);
   points_.reserve(points.size());
   for (const MortonEntry& m : sorted) points_.push_back(points[m.index]);
   nodes_.reserve(points.size() / 2);

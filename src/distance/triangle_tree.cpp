@@ -19,17 +19,12 @@ constexpr float kSlackAbsolute = 1e-6F;  // voxels squared
 
 TriangleTree::TriangleTree(const SoupFeatures& features, StageWatch& watch) : features_(features) {
   const std::size_t count = features.triangles.size();
-  std::vector<MortonEntry> sorted(count);
-  parallel_for(static_cast<std::int64_t>(count), 8192, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const auto [a, b, c] = features.triangles[i];
-      const Vec3 &p = features.corners[a], &q = features.corners[b], &r = features.corners[c];
-      const Vec3 centre{(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3, (p.z + q.z + r.z) / 3};
-      sorted[i] = {morton_code(centre), static_cast<std::uint32_t>(i)};
-    }
-  });
-  parallel_sort(sorted.begin(), sorted.end(), std::less<>());
-  watch.step(0);
+  const auto centre = [&](std::size_t i) {
+    const auto [a, b, c] = features.triangles[i];
+    const Vec3 &p = features.corners[a], &q = features.corners[b], &r = features.corners[c];
+    return Vec3{(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3, (p.z + q.z + r.z) / 3};
+  };
+  const std::vector<MortonEntry> sorted = morton_order(count, centre, watch);
   order_.resize(count);
   std::vector<Node> boxes(count);  // of single triangles, side by side for the leaves
   parallel_for(static_cast<std::int64_t>(count), 8192, watch, [&](std::int64_t begin, std::int64_t end) {

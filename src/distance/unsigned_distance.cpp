@@ -7,6 +7,7 @@
 #include "distance/farthest_voxel.h"
 #include "distance/scan_conversion.h"
 #include "distance/triangle_tree.h"
+#include "kernel/voxels_below.h"
 #include "tetsoup/distance.h"
 
 namespace tetsoup {
@@ -30,12 +31,14 @@ float to_length(float square, float band_squared, float voxel_size) {
 /// The largest value over the unpadded box; searched by the tree unless the band holds all of the box.
 float farthest_distance(const BlockGrid& distance, double band, const TriangleTree& tree, StageWatch& watch) {
   const GridFrame& frame = distance.frame;
-  float largest = 0;
-  for (int z = frame.pad; z < frame.size[2] - frame.pad && !std::isinf(band) && largest < kInfinity; ++z)
-    for (int y = frame.pad; y < frame.size[1] - frame.pad && largest < kInfinity; ++y)
-      for (int x = frame.pad; x < frame.size[0] - frame.pad && largest < kInfinity; ++x)
-        largest = std::max(largest, distance.at(x, y, z));
-  if (!std::isinf(band) && largest < kInfinity) return largest;
+  if (!std::isinf(band)) {
+    float largest = 0;
+    for (int z = frame.pad; z < frame.size[2] - frame.pad && largest < kInfinity; ++z)
+      for (int y = frame.pad; y < frame.size[1] - frame.pad && largest < kInfinity; ++y)
+        for (int x = frame.pad; x < frame.size[0] - frame.pad && largest < kInfinity; ++x)
+          largest = std::max(largest, distance.at(x, y, z));
+    if (largest < kInfinity) return largest;
+  }
   return std::sqrt(farthest_voxel_squared(tree, frame, watch)) * static_cast<float>(frame.voxel_size);
 }
 
@@ -43,21 +46,7 @@ float farthest_distance(const BlockGrid& distance, double band, const TriangleTr
 /// such a voxel meets the known ones after to - from voxels, give or take half a voxel's diagonal twice.
 BitGrid reachable(const BlockGrid& distance, double from, double to, StageWatch& watch) {
   constexpr double kDiagonal = 1.74;
-  BitGrid known = make_bit_grid(distance.frame);
-  const int ny = distance.frame.size[1];
-  parallel_for(static_cast<std::int64_t>(ny) * distance.frame.size[2], 64, watch,
-               [&](std::int64_t begin, std::int64_t end) {
-                 for (std::int64_t row = begin; row < end; ++row) {
-                   const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
-                   for (std::size_t w = 0; w < known.words_per_row; ++w) {
-                     const float* block = distance.block(w, y, z);
-                     std::uint64_t bits = 0;
-                     for (std::size_t x = 0; x < BlockGrid::kBlock; ++x)
-                       bits |= static_cast<std::uint64_t>(block[x] < kInfinity) << x;
-                     known.words[known.row(y, z) + w] = bits;
-                   }
-                 }
-               });
+  const BitGrid known = std::move(kernel::voxels_below(distance, {&kInfinity, 1}, watch).front());
   return dilated(known, static_cast<int>(std::ceil(to - from + kDiagonal)));
 }
 
@@ -115,7 +104,7 @@ BlockGrid filled(const BlockGrid& distance, const TriangleTree& tree, double kno
   return out;
 }
 
-/// Fills the grid up to `band` voxels, by the way that suits it. The result does not depend on what is known before.
+/// Distances up to `band` voxels, by the way that suits the band. `tree` may be null: it is made where it is needed.
 BlockGrid measure(const SoupFeatures& features, const GridFrame& frame, double band, const TriangleTree* tree,
                   StageWatch& watch) {
   if (std::isinf(band)) {
@@ -128,7 +117,8 @@ BlockGrid measure(const SoupFeatures& features, const GridFrame& frame, double b
   BlockGrid near = scan_convert(features, frame, static_cast<float>(std::min(band, kScanBand)), watch);
   if (band <= kScanBand) return near;
   watch.enter_part(0.2, 1);
-  return filled(near, tree ? *tree : TriangleTree(features, watch), kScanBand, band, watch);
+  if (tree) return filled(near, *tree, kScanBand, band, watch);
+  return filled(near, TriangleTree(features, watch), kScanBand, band, watch);
 }
 
 }  // namespace

@@ -73,14 +73,11 @@ struct CoreCounts {
 /// Inside voxels of a layer, and those of them whose six neighbours are inside too.
 CoreCounts count_core(const BitGrid& inside, int z) {
   const std::size_t words = inside.words_per_row;
+  const BitRows rows(inside);
   CoreCounts counts;
   for (int y = 0; y < inside.frame.size[1]; ++y) {
-    const auto row = [&](int dy, int dz) -> const std::uint64_t* {
-      const bool within = y + dy >= 0 && z + dz >= 0 && y + dy < inside.frame.size[1] && z + dz < inside.frame.size[2];
-      return within ? inside.words.data() + inside.row(y + dy, z + dz) : nullptr;
-    };
-    const std::uint64_t* here = row(0, 0);
-    const std::array beside{row(-1, 0), row(1, 0), row(0, -1), row(0, 1)};
+    const std::uint64_t* here = rows.at(y, z);
+    const std::array beside{rows.at(y - 1, z), rows.at(y + 1, z), rows.at(y, z - 1), rows.at(y, z + 1)};
     for (std::size_t w = 0; w < words; ++w) {
       if (here[w] == 0) continue;
       std::uint64_t bits = here[w] & shifted_up(here, w) & shifted_down(here, w, words);

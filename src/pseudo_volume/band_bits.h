@@ -1,18 +1,14 @@
-// Which voxels lie within some distances of the soup.
+// Which voxels lie within a distance of the soup.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "base/parallel.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
-
-/// For each limit the voxels whose distance is below it, found in one pass.
-std::vector<BitGrid> voxels_below(const BlockGrid& distance, std::span<const float> limits, StageWatch& watch);
 
 /// Neighbouring words of a row.
 struct WordRange {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/bits.h"
-#include "pseudo_volume/band_bits.h"
+#include "kernel/voxels_below.h"
 
 namespace tetsoup {
 namespace {
@@ -117,7 +117,7 @@ SoupMarks mark_soup(const BlockGrid& distance, StageWatch& watch) {
   const GridFrame& frame = distance.frame;
   const auto length = [&](double voxels) { return static_cast<float>(voxels * frame.voxel_size); };
   const std::array<float, 3> limits{length(kNearVoxels), length(kSealedVoxels), length(kTouchedVoxels)};
-  std::vector<BitGrid> marks = voxels_below(distance, limits, watch);
+  std::vector<BitGrid> marks = kernel::voxels_below(distance, limits, watch);
   const Unpadded unpadded(frame);
   parallel_for(row_count(frame), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     for_rows(frame, begin, end, [&](int y, int z, std::size_t row) {
