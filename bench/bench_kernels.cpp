@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench_rows.h"
-#include "kernel/brick_query.h"
+#include "kernel/nearest_points.h"
 #include "kernel/clip_rows.h"
 #include "kernel/cone_reach.h"
 #include "kernel/event_masks.h"
@@ -62,15 +62,24 @@ void add_kernel_rows() {
         {{{1, 0, 0}, 0.01F}, {{-1, 0, 0}, 0.01F}, {{0, 0.6F, 0.8F}, 0.01F}, {{0, -0.8F, 0.6F}, 0.01F}}};
     for (int i = 0; i < kCalls; ++i) benchmark::DoNotOptimize(kernel::cone_reach(directions, half_spaces, 3));
   });
-  add_kernel_rows("lower_brick", [values = random_values(24)] {
-    std::vector<Vec3> points;
-    for (std::size_t i = 0; i < 8; ++i) points.push_back({20 + values[3 * i], values[3 * i + 1], values[3 * i + 2]});
-    const std::vector<kernel::PointNode> nodes{{{20, 0, 0}, {21, 1, 1}, 0, 8}};
+  const std::vector<float> places = random_values(3 * 1000);
+  kernel::PointColumns points;
+  points.resize(1000);
+  for (std::size_t i = 0; i < 1000; ++i) {
+    points.x[i] = 20 + places[3 * i];
+    points.y[i] = 64 * places[3 * i + 1];
+    points.z[i] = 64 * places[3 * i + 2];
+  }
+  add_kernel_rows("keep_candidates", [points] {
+    kernel::PointColumns kept;
+    kernel::keep_candidates(points, {{3.5F, 32, 32}, {3.5F, 3.5F, 3.5F}}, kept);
+    benchmark::DoNotOptimize(kept);
+  });
+  points.resize(8);
+  add_kernel_rows("nearest_squares", [points] {
     std::array<float, kernel::kBrick * kernel::kBrick * kernel::kBrick> squares;
     for (int i = 0; i < kCalls; ++i) {
-      squares.fill(1e30F);
-      std::uint32_t hint = 0;
-      kernel::lower_brick({nodes, points}, i % 7, 0, 0, squares, hint);
+      kernel::nearest_squares(points, i % 7, 0, 0, squares);
       benchmark::DoNotOptimize(squares);
     }
   });

@@ -1,7 +1,7 @@
 #include "distance/far_field.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/block_grid.h"
 #include "distance/surface_points.h"
@@ -11,67 +11,94 @@ namespace {
 
 static_assert(kPointSpacing * kPointSpacing / (4 * kFarField) < 0.045);
 
-/// Asks for the unknown voxels of a slab, brick by brick: what was nearest to one brick is a hint for the next.
-class SlabFiller {
+constexpr int kRegion = 64;  ///< Voxels along each edge of what is one piece of work.
+static_assert(kRegion % BlockGrid::kBlock == 0 && kRegion % kernel::kBrick == 0);
+
+/// Voxels z < 64 and rows of whole blocks, so that the bricks of a region never leave the memory.
+class RegionFiller {
  public:
-  SlabFiller(const GridFrame& frame, std::size_t row_stride, const PointTree& tree)
-      : frame_(frame), stride_(row_stride), tree_(tree.view()) {}
+  RegionFiller(const GridFrame& frame, std::size_t row_stride, const kernel::PointColumns& points)
+      : frame_(frame), stride_(row_stride), points_(points) {}
 
-  int brick_rows() const { return (frame_.size[1] + kernel::kBrick - 1) / kernel::kBrick; }
-
-  /// Fills the rows y0..y0 + 3 of the layers z_begin..z_end, which are all of the slab's.
-  void fill(std::span<float> slab, int y0, int z_begin, int z_end) const {
-    std::uint32_t hint = 0;
-    for (int z0 = z_begin; z0 < z_end; z0 += kernel::kBrick)
-      for (int x0 = 0; x0 < frame_.size[0]; x0 += kernel::kBrick) fill_brick(slab, {x0, y0, z0}, z_begin, hint);
+  /// Fills the unknown voxels of the region at x0, y0 in layers z0 to z0 + 63, whose values are `layers`.
+  void fill(std::span<float> layers, const std::array<int, 3>& at) const {
+    std::array<kernel::PointColumns, 4> lists;  // for boxes of 64, 32, 16 and 8 voxels
+    divide(layers, at, at[2], kRegion, points_, lists);
   }
 
  private:
-  void fill_brick(std::span<float> slab, const std::array<int, 3>& at, int z_begin, std::uint32_t& hint) const {
-    std::array<float, kernel::kBrick * kernel::kBrick * kernel::kBrick> squares{};
-    const auto for_unknown = [&](const auto& body) {
-      std::size_t i = 0;
-      for (int z = at[2]; z < at[2] + kernel::kBrick; ++z) {
-        for (int y = at[1]; y < at[1] + kernel::kBrick; ++y) {
-          for (int x = at[0]; x < at[0] + kernel::kBrick; ++x, ++i) {
-            if (!frame_.contains(x, y, z)) continue;
-            float& value = slab[static_cast<std::size_t>((z - z_begin) * frame_.size[1] + y) * stride_ +
-                                static_cast<std::size_t>(x)];
-            if (std::isinf(value)) body(value, squares[i]);
-          }
-        }
+  void divide(std::span<float> layers, const std::array<int, 3>& at, int first_layer, int edge,
+              const kernel::PointColumns& points, std::span<kernel::PointColumns> lists) const {
+    if (!frame_.contains(at[0], at[1], at[2])) return;
+    if (edge == kernel::kBrick && !any_unknown(layers, at, first_layer)) return;
+    const float half = static_cast<float>(edge - 1) * 0.5F;
+    const Vec3 centre{static_cast<float>(at[0]) + half, static_cast<float>(at[1]) + half,
+                      static_cast<float>(at[2]) + half};
+    kernel::keep_candidates(points, {centre, {half, half, half}}, lists[0]);
+    if (edge == kernel::kBrick) return fill_brick(layers, at, first_layer, lists[0]);
+    for (int i = 0; i < 8; ++i)
+      divide(layers, {at[0] + (i & 1) * edge / 2, at[1] + (i >> 1 & 1) * edge / 2, at[2] + (i >> 2) * edge / 2},
+             first_layer, edge / 2, lists[0], lists.subspan(1));
+  }
+
+  /// body(value, index in the brick) for the unknown voxels of a brick; false ends it.
+  template <class Body>
+  void for_unknown(std::span<float> layers, const std::array<int, 3>& at, int first_layer, const Body& body) const {
+    const int nx = std::min(kernel::kBrick, frame_.size[0] - at[0]),
+              ny = std::min(kernel::kBrick, frame_.size[1] - at[1]),
+              nz = std::min(kernel::kBrick, frame_.size[2] - at[2]);
+    for (int z = 0; z < nz; ++z) {
+      for (int y = 0; y < ny; ++y) {
+        float* row =
+            &layers[static_cast<std::size_t>((at[2] + z - first_layer) * frame_.size[1] + at[1] + y) * stride_ +
+                    static_cast<std::size_t>(at[0])];
+        for (int x = 0; x < nx; ++x)
+          if (std::isinf(row[x])) body(row[x], static_cast<std::size_t>((z * kernel::kBrick + y) * kernel::kBrick + x));
       }
-    };
+    }
+  }
+
+  bool any_unknown(std::span<float> layers, const std::array<int, 3>& at, int first_layer) const {
     bool any = false;
-    for_unknown([&](float, float& square) {
-      square = std::numeric_limits<float>::max();
-      any = true;
+    for_unknown(layers, at, first_layer, [&](float, std::size_t) { any = true; });
+    return any;
+  }
+
+  void fill_brick(std::span<float> layers, const std::array<int, 3>& at, int first_layer,
+                  const kernel::PointColumns& points) const {
+    std::array<float, kernel::kBrick * kernel::kBrick * kernel::kBrick> squares;
+    kernel::nearest_squares(points, at[0], at[1], at[2], squares);
+    for_unknown(layers, at, first_layer, [&](float& value, std::size_t i) {
+      value = std::sqrt(squares[i]) * static_cast<float>(frame_.voxel_size);
     });
-    if (!any) return;
-    kernel::lower_brick(tree_, at[0], at[1], at[2], squares, hint);
-    for_unknown([&](float& value, float square) { value = std::sqrt(square) * static_cast<float>(frame_.voxel_size); });
   }
 
   const GridFrame& frame_;
   std::size_t stride_;
-  kernel::PointTreeView tree_;
+  const kernel::PointColumns& points_;
 };
 
 }  // namespace
 
 BlockGrid fill_far_field(const BlockGrid& band, const SoupFeatures& features, StageWatch& watch) {
-  const PointTree tree(surface_points(features), watch);
+  constexpr std::size_t kSlabs = kRegion / BlockGrid::kSlab;
+  const kernel::PointColumns points = surface_points(features);
+  watch.step(0);
   BlockGrid out = make_block_grid(band.frame);
-  const SlabFiller filler(band.frame, band.blocks_per_row * BlockGrid::kBlock, tree);
-  std::vector<float> slab;
-  for (std::size_t i = 0; i < out.slabs.size(); ++i) {
-    slab.resize(slab_values(out, i));
-    load_slab(band, i, slab);
-    const int z_begin = static_cast<int>(i) * BlockGrid::kSlab, z_end = z_begin + slab_layers(band.frame, i);
-    parallel_for(filler.brick_rows(), 1, watch, [&](std::int64_t row, std::int64_t) {
-      filler.fill(slab, static_cast<int>(row) * kernel::kBrick, z_begin, z_end);
+  const RegionFiller filler(band.frame, band.blocks_per_row * BlockGrid::kBlock, points);
+  const auto columns = static_cast<std::int64_t>(band.blocks_per_row);
+  const std::int64_t regions = columns * ((band.frame.size[1] + kRegion - 1) / kRegion);
+  std::vector<float> layers;
+  for (std::size_t first = 0; first < out.slabs.size(); first += kSlabs) {
+    const std::size_t count = std::min(kSlabs, out.slabs.size() - first), values = slab_values(out, first);
+    const auto slab = [&](std::size_t i) { return std::span(layers).subspan(i * values, slab_values(out, first + i)); };
+    layers.resize(count * values);
+    for (std::size_t i = 0; i < count; ++i) load_slab(band, first + i, slab(i));
+    parallel_for(regions, 1, watch, [&](std::int64_t i, std::int64_t) {
+      filler.fill(layers, {static_cast<int>(i % columns) * kRegion, static_cast<int>(i / columns) * kRegion,
+                           static_cast<int>(first) * BlockGrid::kSlab});
     });
-    store_slab(out, i, slab);
+    for (std::size_t i = 0; i < count; ++i) store_slab(out, first + i, slab(i));
   }
   return out;
 }
