@@ -12,14 +12,84 @@
 
 namespace tetsoup {
 
-/// At most one of `cells` and `cell_size`; neither: an edge that gives about 2,000 tets,
-/// with a whole number of cells along the longest axis where that keeps the volume much better.
+enum class LatticeKind {
+  Five,  ///< Cubes, five tets each [Spillmann06 §4].
+  Bcc,   ///< Body-centred cubic: cubes' corners and centres, twelve equal tets a cube.
+};
+
+enum class Fit {
+  Off,     ///< The frame is what `translate_cells` and `rotate` say.
+  Search,  ///< It is searched for from there: translation, rotation and edge, for the best overlap with the volume.
+};
+
+enum class Thin {
+  Keep,  ///< Where a piece of the soup would lose its cover, the tets it passes through stay.
+  Drop,  ///< Density alone decides.
+};
+
+enum class Cover {
+  Density,  ///< Tets at least rho_min inside.
+  Enclose,  ///< And as many more as it takes for every vertex of the soup to lie in the mesh.
+  Inside,   ///< Only tets that are inside altogether.
+};
+
+enum class Separate {
+  Apart,    ///< Parts of the volume that share a cell but do not touch get a copy of it each.
+  Together  ///< One cell, one copy: they are glued.
+};
+
+enum class Touching {
+  Mend,   ///< No tets joined by a vertex or an edge only: tets are added, dropped or given their own vertices.
+  Leave,  ///< The boundary may touch itself.
+};
+
+enum class Bubbles { Fill, Keep };
+
+enum class BoundaryOnly {
+  Leave,
+  Remove,  ///< Tets with four boundary vertices go where the mesh stays in one piece and keeps a manifold boundary.
+  Split,   ///< Interior edges between boundary vertices, and tets with four, are split until there are none.
+};
+
+/// Clean-up of what density left.
+struct TopologyOptions {
+  Touching touching = Touching::Mend;
+  double min_part = 0.001;  ///< Components with a smaller share of the volume are dropped, [0, 1); 0 keeps all.
+  Bubbles bubbles = Bubbles::Fill;
+  BoundaryOnly boundary_only = BoundaryOnly::Leave;
+  bool operator==(const TopologyOptions&) const = default;
+};
+
+/// What the clean-up did.
+struct TopologyReport {
+  std::size_t touching_mended = 0;      ///< Edges and vertices at which tets merely touched.
+  std::size_t tets_added = 0;           ///< To join them,
+  std::size_t tets_dropped = 0;         ///< or to part them;
+  std::size_t vertices_doubled = 0;     ///< likewise.
+  std::size_t parts_dropped = 0;        ///< Components below min_part,
+  double dropped_volume = 0;            ///< and their volume.
+  std::size_t bubbles_filled = 0;       ///< Voids without a way out,
+  std::size_t bubble_tets = 0;          ///< and the tets that fill them.
+  std::size_t boundary_only_tets = 0;   ///< Tets with four boundary vertices that were removed or split.
+  std::size_t boundary_only_edges = 0;  ///< Interior edges between boundary vertices that were split.
+};
+
+/// At most one of `tets`, `vertices`, `edge`, `cells` and `cell_size`; none: 2,000 tets.
 struct LatticeOptions {
-  std::optional<int> cells;         ///< Cubic cells along the longest axis of the soup's box, 1..1024.
-  std::optional<double> cell_size;  ///< Edge of a cell.
-  Vec3d translate_cells;            ///< Shift of the lattice, in fractions of a cell.
-  Vec3d rotate;                     ///< Radians about x, then y, then z, around the centre of the soup's box.
-  double rho_min = 0.5;             ///< A tet stays if at least this share of its voxels is inside, (0, 1].
+  std::optional<std::size_t> tets;      ///< Tets wanted, 1..2^27: hit within 5 % from 200 on, 10 % below.
+  std::optional<std::size_t> vertices;  ///< Vertices wanted, likewise.
+  std::optional<double> edge;           ///< Mean edge of the lattice's tets, in the soup's unit.
+  std::optional<int> cells;             ///< Cubic cells along the longest axis of the soup's box, 1..1024.
+  std::optional<double> cell_size;      ///< Edge of a cubic cell.
+  LatticeKind kind = LatticeKind::Five;
+  Vec3d translate_cells;  ///< Shift of the lattice, in fractions of a cell.
+  Vec3d rotate;           ///< Radians about x, then y, then z, around the centre of the soup's box.
+  Fit fit = Fit::Off;
+  double rho_min = 0.5;  ///< A tet stays if at least this share of its voxels is inside, (0, 1].
+  Thin thin = Thin::Keep;
+  Cover cover = Cover::Density;
+  Separate separate = Separate::Apart;
+  TopologyOptions topology;
   bool operator==(const LatticeOptions&) const = default;
 };
 
@@ -28,10 +98,20 @@ struct LatticeReport {
   double cell_size = 0;
   std::size_t used_cells = 0;  ///< Cells with at least one kept tet.
   std::size_t tet_count = 0;
-  std::size_t sampled_tets = 0;  ///< Tets that held no voxel centre and were judged by sampling.
-  double kept_volume = 0;        ///< Of the kept tets.
-  double pseudo_volume = 0;      ///< Of the inside voxels.
-  bool kept_by_soup = false;     ///< Density left nothing: the tets the soup passes through were kept instead.
+  std::size_t sampled_tets = 0;    ///< Tets that held no voxel centre and were judged by sampling.
+  double kept_volume = 0;          ///< Of the kept tets.
+  double pseudo_volume = 0;        ///< Of the inside voxels.
+  bool kept_by_soup = false;       ///< Density left nothing: the tets the soup passes through were kept instead.
+  int fills = 0;                   ///< Lattices filled to hit the wanted count.
+  Vec3d translate_cells, rotate;   ///< The frame that was taken.
+  double overlap = 0;              ///< IoU of the kept tets with the pseudo volume,
+  double overlap_unfitted = 0;     ///< and with the frame as given, where one was searched for.
+  std::size_t thin_tets = 0;       ///< Kept because a piece of the soup would have lost its cover.
+  std::size_t enclosing_tets = 0;  ///< Kept to enclose the soup's vertices.
+  std::size_t doubled_tets = 0;    ///< Copies made to keep apart what is apart.
+  double excess_volume = 0;        ///< Of the mesh, outside the pseudo volume,
+  double lacking_volume = 0;       ///< and of the pseudo volume, outside the mesh.
+  TopologyReport topology;
 };
 
 struct LatticeMesh {

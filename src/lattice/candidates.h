@@ -1,0 +1,22 @@
+// The tets that may become the mesh, between density and the steps that mend what density alone leaves.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+/// Every tet that holds an inside voxel or is kept, and every tet around a vertex of one of those, so that whoever adds
+/// tets to the mesh finds them here.
+struct Candidates {
+  TetMesh mesh;                    ///< Positive tets, faces matching; vertices and tets in lattice order.
+  std::vector<float> density;      ///< Share of each tet that is inside, 0..1.
+  std::vector<std::uint8_t> kept;  ///< 1: the tet belongs to the mesh.
+};
+
+/// The mesh of the kept tets; vertices and tets keep their order.
+TetMesh kept_mesh(const Candidates& candidates);
+
+}  // namespace tetsoup
