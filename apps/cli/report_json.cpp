@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "angles.h"
+#include "readiness_page.h"
 #include "tetsoup/progress.h"
 
 namespace tetsoup::cli {
@@ -205,15 +206,20 @@ std::string mesh_report_json(const MeshRun& run) {
                   {"pseudo_volume", pseudo_volume_json(volume)},
                   {"lattice", lattice_json(pipeline.lattice().report)},
                   {"smooth", smooth_json(pipeline.smooth().report)},
-                  {"quality", quality_json(run.quality)}});
+                  {"quality", quality_json(run.quality)},
+                  {"readiness", readiness_json(run.readiness, run.material)}});
 }
 
 std::string soup_report_json(const std::string& input, const SoupReport& report) {
   return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"soup", soup_json(report)}});
 }
 
-std::string tets_report_json(const std::string& input, const Quality& quality) {
-  return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"quality", quality_json(quality)}});
+std::string tets_report_json(const std::string& input, const Quality& quality, const Readiness& readiness,
+                             const Material& material) {
+  return text_of({{"input", input},
+                  {"version", TETSOUP_VERSION},
+                  {"quality", quality_json(quality)},
+                  {"readiness", readiness_json(readiness, material)}});
 }
 
 }  // namespace tetsoup::cli

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "angles.h"
+#include "readiness_page.h"
 #include "report_json.h"
 
 namespace tetsoup::cli {
@@ -111,22 +112,11 @@ void note_lattice(const MeshRun& run, std::vector<std::string>& notes) {
         "The mesh follows the shape only roughly. More cells follow it more closely: --cells {}.", more_cells));
 }
 
-void note_topology(const Quality& quality, std::vector<std::string>& notes) {
+void note_faults(const Quality& quality, std::vector<std::string>& notes) {
   if (quality.inverted_tets + quality.invalid_tets > 0)
     notes.push_back(
         fmt::format("{} of the mesh have no positive volume. This is a bug; please report it with the input.",
                     counted(quality.inverted_tets + quality.invalid_tets, "tet")));
-  if (quality.components > 1)
-    notes.push_back(
-        fmt::format("The mesh is in {} pieces that share no face. To join what is meant to be one, try a much lower "
-                    "--rho-min, such "
-                    "as 0.1, or smaller cells (--cells).",
-                    grouped(quality.components)));
-  if (!quality.boundary_manifold)
-    notes.push_back(
-        fmt::format("The boundary touches itself: {} and {} are not manifold. Most simulations "
-                    "take that; contact surfaces may not.",
-                    counted(quality.non_manifold_edges, "edge"), counted(quality.non_manifold_vertices, "vertex")));
 }
 
 std::string describe_seconds(const Timings& seconds) {
@@ -208,8 +198,9 @@ std::string describe_run(const MeshRun& run) {
   const std::string raised = describe_raised_voxels(pipeline.soup(), run.options.distance, frame);
   if (!raised.empty()) notes.push_back(raised);
   note_lattice(run, notes);
-  note_topology(run.quality, notes);
+  note_faults(run.quality, notes);
   for (const std::string& note : notes) text += "Note: " + note + "\n";
+  text += describe_readiness(run.readiness, run.material);
   text += describe_seconds(run.seconds);
   for (const auto& path : run.outputs) text += "Wrote " + path.string() + "\n";
   return text;
