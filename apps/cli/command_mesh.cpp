@@ -168,6 +168,8 @@ void add_mesh_command(CLI::App& app) {
   add_grid_flags(*mesh, command->options.distance);
   add_volume_flags(*mesh, command->options.pseudo_volume);
   add_lattice_flags(*mesh, command->options.lattice);
+  add_cover_flags(*mesh, command->options.lattice);
+  add_topology_flags(*mesh, command->options.lattice.topology);
   add_smooth_flags(*mesh, command->options.smooth);
   add_material_flags(*mesh, command->material);
   add_flag(

@@ -54,15 +54,34 @@ std::string describe_edges(const SoupReport& soup) {
   return text;
 }
 
+/// What was kept beyond density, and what the clean-up did.
+std::string describe_care(const LatticeReport& lattice) {
+  const TopologyReport& topology = lattice.topology;
+  std::vector<std::string> done;
+  const auto say = [&](std::size_t count, std::string_view noun, std::string_view what) {
+    if (count > 0) done.push_back(counted(count, noun) + " " + std::string(what));
+  };
+  say(lattice.thin_tets, "tet", "kept for thin parts");
+  say(lattice.enclosing_tets, "tet", "added to enclose every vertex");
+  say(lattice.doubled_tets, "tet", "doubled to keep apart what does not touch");
+  say(topology.bubbles_filled, "bubble", "filled");
+  say(topology.parts_dropped, "crumb", "dropped (--min-part 0 keeps them)");
+  say(topology.touching_mended, "place", "mended where tets merely touched");
+  say(topology.boundary_only_tets, "tet", "with boundary vertices only taken care of");
+  return done.empty() ? std::string() : "Care taken: " + listed(done) + ".\n";
+}
+
 std::string describe_lattice(const LatticeReport& lattice, const SmoothReport& smooth) {
   std::string text =
       fmt::format("Lattice: {} x {} x {} cells of edge {:.4g}; {} kept.", lattice.cells[0], lattice.cells[1],
                   lattice.cells[2], lattice.cell_size, counted(lattice.tet_count, "tet"));
-  if (smooth.passes == 0) return text + " Not smoothed.\n";
-  return text + fmt::format(" Smoothed in {}{}.\n", counted(static_cast<std::size_t>(smooth.passes), "pass"),
-                            smooth.shortened_moves > 0 ? fmt::format("; {} cut short for the sake of the angles",
-                                                                     counted(smooth.shortened_moves, "move"))
-                                                       : std::string());
+  if (smooth.passes == 0) return text + " Not smoothed.\n" + describe_care(lattice);
+  return text +
+         fmt::format(" Smoothed in {}{}.\n", counted(static_cast<std::size_t>(smooth.passes), "pass"),
+                     smooth.shortened_moves > 0 ? fmt::format("; {} cut short for the sake of the angles",
+                                                              counted(smooth.shortened_moves, "move"))
+                                                : std::string()) +
+         describe_care(lattice);
 }
 
 std::string describe_result(const MeshRun& run) {
