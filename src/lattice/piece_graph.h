@@ -1,0 +1,62 @@
+// Which pieces of neighbouring tets touch through the face between them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/groups.h"
+#include "lattice/tet_pieces.h"
+
+namespace tetsoup {
+
+/// A face of two tets.
+struct SharedFace {
+  std::array<std::uint32_t, 3> corners;
+  std::uint32_t a, b;
+};
+
+/// Piece `a` of the face's tet a and piece `b` of its tet b have voxels of the face in common.
+struct Contact {
+  std::uint32_t a, b;
+  std::uint32_t samples;  ///< Points of the face in them; where there is but one piece each, those found so far.
+};
+
+/// Walks from piece to piece, in a few tets only.
+class LocalWalk {
+ public:
+  /// Both must outlive this.
+  LocalWalk(const TetMesh& mesh, const TetPieces& pieces) : mesh_(mesh), pieces_(pieces), seen_(pieces.size(), 0) {}
+
+  /// Whether a way leads from one piece to the other through tets that have one of these vertices.
+  bool leads(const Groups<std::uint32_t>& neighbours, std::span<const std::uint32_t> around, std::uint32_t from,
+             std::uint32_t to);
+
+ private:
+  const TetMesh& mesh_;
+  const TetPieces& pieces_;
+  std::vector<std::uint32_t> seen_;  ///< The walk that saw a piece last.
+  std::vector<std::uint32_t> queue_;
+  std::uint32_t walks_ = 0;
+};
+
+class PieceGraph {
+ public:
+  /// All must outlive this. O(tets + voxels on faces between pieces), all threads.
+  PieceGraph(const Candidates& candidates, const TetPieces& pieces, const BitGrid& inside, StageWatch& watch);
+
+  const std::vector<SharedFace>& faces() const { return faces_; }
+  std::span<const Contact> contacts(std::size_t face) const {
+    return std::span(contacts_).subspan(contacts_begin_[face], contacts_begin_[face + 1] - contacts_begin_[face]);
+  }
+  /// Of every piece, those it touches.
+  const Groups<std::uint32_t>& neighbours() const { return neighbours_; }
+
+ private:
+  std::vector<SharedFace> faces_;
+  std::vector<std::size_t> contacts_begin_;
+  std::vector<Contact> contacts_;
+  Groups<std::uint32_t> neighbours_;
+};
+
+}  // namespace tetsoup
