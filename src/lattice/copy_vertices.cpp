@@ -9,36 +9,6 @@ std::size_t place_of(std::uint32_t vertex, const Tet& tet) {
   return static_cast<std::size_t>(std::find(tet.begin(), tet.end(), vertex) - tet.begin());
 }
 
-/// The corners of two neighbouring tets (numbers 4 * tet + 0..3) at their face.
-class CornerUnions {
- public:
-  CornerUnions(const TetMesh& mesh, std::size_t tets) : mesh_(mesh), unions_(4 * tets) {}
-
-  /// `a`, `b`: numbers of copies of the face's tets.
-  void join(const SharedFace& face, std::size_t a, std::size_t b) {
-    for (const std::uint32_t v : face.corners)
-      unions_.join(4 * a + place_of(v, mesh_.tets[face.a]), 4 * b + place_of(v, mesh_.tets[face.b]));
-  }
-  std::size_t find(std::size_t corner) { return unions_.find(corner); }
-
- private:
-  const TetMesh& mesh_;
-  Unions unions_;
-};
-
-/// Fans of kept tets at every vertex, as if nothing were apart.
-std::vector<std::uint32_t> count_fans(const Candidates& candidates, const PieceGraph& graph) {
-  const TetMesh& mesh = candidates.mesh;
-  CornerUnions corners(mesh, mesh.tets.size());
-  for (const SharedFace& face : graph.faces())
-    if (candidates.kept[face.a] && candidates.kept[face.b]) corners.join(face, face.a, face.b);
-  std::vector<std::uint32_t> fans(mesh.vertices.size(), 0);
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    for (std::size_t i = 0; i < 4; ++i)
-      if (candidates.kept[t] && corners.find(4 * t + i) == 4 * t + i) ++fans[mesh.tets[t][i]];
-  return fans;
-}
-
 std::vector<CopiedTet> list_copies(const Candidates& candidates, Copies& copies) {
   std::vector<CopiedTet> tets;
   for (std::uint32_t t = 0; t < candidates.kept.size(); ++t) {
@@ -48,36 +18,87 @@ std::vector<CopiedTet> list_copies(const Candidates& candidates, Copies& copies)
   return tets;
 }
 
+class Numbering {
+ public:
+  Numbering(const Candidates& candidates, Copies& copies, const PieceGraph& graph)
+      : mesh_(candidates.mesh),
+        copies_(copies),
+        graph_(graph),
+        tets_(list_copies(candidates, copies)),
+        corners_(4 * tets_.size()) {}
+
+  CopyVertices number() {
+    for (const Glue& g : copies_.glued()) join(graph_.faces()[g.face], number_of(g.a), number_of(g.b));
+    join_touching();
+    CopyVertices result{tets_, {}};
+    std::vector<std::uint8_t> is_taken(mesh_.vertices.size(), 0);
+    for (std::size_t c = 0; c < 4 * tets_.size(); ++c) {
+      const std::size_t root = corners_.find(c);
+      std::uint32_t& name = result.tets[c / 4].vertices[c % 4];
+      if (root != c) {
+        name = result.tets[root / 4].vertices[root % 4];
+      } else if (is_taken[name]) {
+        result.sources.push_back(name);
+        name = static_cast<std::uint32_t>(mesh_.vertices.size() + result.sources.size() - 1);
+      } else {
+        is_taken[name] = 1;
+      }
+    }
+    return result;
+  }
+
+ private:
+  /// Corners are 4 * number of the copy + 0..3.
+  std::uint32_t vertex_of(std::size_t corner) const { return mesh_.tets[tets_[corner / 4].tet][corner % 4]; }
+  std::size_t number_of(std::uint32_t copy) const {
+    const auto is_before = [](const CopiedTet& tet, std::uint32_t c) { return tet.copy < c; };
+    return static_cast<std::size_t>(std::lower_bound(tets_.begin(), tets_.end(), copy, is_before) - tets_.begin());
+  }
+  void join(const SharedFace& face, std::size_t a, std::size_t b) {
+    for (const std::uint32_t v : face.corners)
+      corners_.join(4 * a + place_of(v, mesh_.tets[face.a]), 4 * b + place_of(v, mesh_.tets[face.b]));
+  }
+
+  /// Of vertices with several fans of copies.
+  void join_touching() {
+    std::vector<std::uint32_t> fans(mesh_.vertices.size(), 0);
+    for (std::size_t c = 0; c < 4 * tets_.size(); ++c) fans[vertex_of(c)] += corners_.find(c) == c;
+    const Groups<std::size_t> roots(mesh_.vertices.size(), [&](const auto& put) {
+      for (std::size_t c = 0; c < 4 * tets_.size(); ++c)
+        if (fans[vertex_of(c)] > 1) put(vertex_of(c), c);
+    });
+    for (std::uint32_t v = 0; v < fans.size(); ++v)
+      if (fans[v] > 1) join_fans(v, roots[v]);
+  }
+  void join_fans(std::uint32_t v, std::span<const std::size_t> corners) {
+    std::vector<std::uint32_t> largest;  // copy of every fan
+    std::vector<std::size_t> roots;
+    for (const std::size_t c : corners) {
+      const std::uint32_t copy = tets_[c / 4].copy;
+      const auto at = std::find(roots.begin(), roots.end(), corners_.find(c)) - roots.begin();
+      if (at == std::ssize(roots)) {
+        roots.push_back(corners_.find(c));
+        largest.push_back(copy);
+      } else if (auto& other = largest[static_cast<std::size_t>(at)]; copies_.density(copy) > copies_.density(other)) {
+        other = copy;
+      }
+    }
+    for (std::size_t i = 0; i < roots.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (!copies_.are_apart(std::span(&v, 1), largest[i], largest[j])) corners_.join(roots[i], roots[j]);
+  }
+
+  const TetMesh& mesh_;
+  Copies& copies_;
+  const PieceGraph& graph_;
+  std::vector<CopiedTet> tets_;
+  Unions corners_;
+};
+
 }  // namespace
 
 CopyVertices number_vertices(const Candidates& candidates, Copies& copies, const PieceGraph& graph) {
-  const TetMesh& mesh = candidates.mesh;
-  CopyVertices result{list_copies(candidates, copies), {}};
-  std::vector<CopiedTet>& tets = result.tets;
-  CornerUnions corners(mesh, tets.size());
-  const auto number_of = [&](std::uint32_t copy) {
-    const auto is_before = [](const CopiedTet& tet, std::uint32_t c) { return tet.copy < c; };
-    return static_cast<std::size_t>(std::lower_bound(tets.begin(), tets.end(), copy, is_before) - tets.begin());
-  };
-  for (const Glue& g : copies.glued()) corners.join(graph.faces()[g.face], number_of(g.a), number_of(g.b));
-
-  const std::vector<std::uint32_t> fans = count_fans(candidates, graph);
-  std::vector<std::uint32_t> parts(mesh.vertices.size(), 0), begun(mesh.vertices.size(), 0);
-  const auto for_each_corner = [&](const auto& visit) {
-    for (std::size_t c = 0; c < 4 * tets.size(); ++c) visit(c, mesh.tets[tets[c / 4].tet][c % 4]);
-  };
-  for_each_corner([&](std::size_t c, std::uint32_t v) { parts[v] += corners.find(c) == c; });
-  for_each_corner([&](std::size_t c, std::uint32_t v) {
-    const std::size_t root = corners.find(c);
-    std::uint32_t& name = tets[c / 4].vertices[c % 4];
-    if (root != c) {
-      name = tets[root / 4].vertices[root % 4];
-    } else if (parts[v] > fans[v] && begun[v]++ > 0) {
-      name = static_cast<std::uint32_t>(mesh.vertices.size() + result.sources.size());
-      result.sources.push_back(v);
-    }
-  });
-  return result;
+  return Numbering(candidates, copies, graph).number();
 }
 
 }  // namespace tetsoup

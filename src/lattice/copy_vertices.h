@@ -18,8 +18,8 @@ struct CopyVertices {
   std::vector<std::uint32_t> sources;  ///< Of the vertices beyond the mesh's: those that they double.
 };
 
-/// Corners at a vertex are one if faces join them there [Molino04]. A vertex at which kept tets merely touched before
-/// is doubled only if separation parts some that were joined; the first tet around it keeps its number.
+/// Corners at a vertex are one if faces join them there [Molino04]. Copies that merely touch at a vertex keep it in
+/// common unless they are apart: to mend that is up to others. The first tet around a vertex keeps its number.
 CopyVertices number_vertices(const Candidates& candidates, Copies& copies, const PieceGraph& graph);
 
 }  // namespace tetsoup

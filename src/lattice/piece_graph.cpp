@@ -114,23 +114,4 @@ PieceGraph::PieceGraph(const Candidates& candidates, const TetPieces& pieces, co
   });
 }
 
-bool LocalWalk::leads(const Groups<std::uint32_t>& neighbours, std::span<const std::uint32_t> around,
-                      std::uint32_t from, std::uint32_t to) {
-  const auto is_near = [&](std::uint32_t piece) {
-    const Tet& tet = mesh_.tets[pieces_.tet_of(piece)];
-    return std::find_first_of(tet.begin(), tet.end(), around.begin(), around.end()) != tet.end();
-  };
-  seen_[from] = ++walks_;
-  queue_.assign(1, from);
-  for (std::size_t next = 0; next < queue_.size(); ++next) {
-    if (queue_[next] == to) return true;
-    for (const std::uint32_t piece : neighbours[queue_[next]]) {
-      if (seen_[piece] == walks_ || !is_near(piece)) continue;
-      seen_[piece] = walks_;
-      queue_.push_back(piece);
-    }
-  }
-  return false;
-}
-
 }  // namespace tetsoup

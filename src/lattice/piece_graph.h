@@ -1,6 +1,7 @@
 // Which pieces of neighbouring tets touch through the face between them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -28,11 +29,33 @@ class LocalWalk {
   /// Both must outlive this.
   LocalWalk(const TetMesh& mesh, const TetPieces& pieces) : mesh_(mesh), pieces_(pieces), seen_(pieces.size(), 0) {}
 
-  /// Whether a way leads from one piece to the other through tets that have one of these vertices.
+  /// Whether a way leads from a piece to one for which `is_end` holds, through tets that have one of these vertices.
+  template <class IsEnd>
   bool leads(const Groups<std::uint32_t>& neighbours, std::span<const std::uint32_t> around, std::uint32_t from,
-             std::uint32_t to);
+             const IsEnd& is_end) {
+    seen_[from] = ++walks_;
+    queue_.assign(1, from);
+    for (std::size_t next = 0; next < queue_.size(); ++next) {
+      if (is_end(queue_[next])) return true;
+      for (const std::uint32_t piece : neighbours[queue_[next]]) {
+        if (seen_[piece] == walks_ || !is_near(piece, around)) continue;
+        seen_[piece] = walks_;
+        queue_.push_back(piece);
+      }
+    }
+    return false;
+  }
+  bool leads(const Groups<std::uint32_t>& neighbours, std::span<const std::uint32_t> around, std::uint32_t from,
+             std::uint32_t to) {
+    return leads(neighbours, around, from, [&](std::uint32_t piece) { return piece == to; });
+  }
 
  private:
+  bool is_near(std::uint32_t piece, std::span<const std::uint32_t> around) const {
+    const Tet& tet = mesh_.tets[pieces_.tet_of(piece)];
+    return std::find_first_of(tet.begin(), tet.end(), around.begin(), around.end()) != tet.end();
+  }
+
   const TetMesh& mesh_;
   const TetPieces& pieces_;
   std::vector<std::uint32_t> seen_;  ///< The walk that saw a piece last.

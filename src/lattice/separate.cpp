@@ -64,30 +64,26 @@ void attach_others(Candidates& candidates, const CopyVertices& numbered) {
 }
 
 /// The first copy of a tet takes its place, the others go to the end. Each has its share of the tet's density.
-std::size_t store_copies(Candidates& candidates, const TetPieces& pieces, Copies& copies,
-                         const CopyVertices& numbered) {
+std::size_t store_copies(Candidates& candidates, Copies& copies, const CopyVertices& numbered) {
   TetMesh& mesh = candidates.mesh;
   const std::size_t tets_before = mesh.tets.size();
+  std::vector<float> densities;
+  for (const CopiedTet& tet : numbered.tets) densities.push_back(static_cast<float>(copies.density(tet.copy)));
   for (const std::uint32_t v : numbered.sources) mesh.vertices.push_back(mesh.vertices[v]);
-  float per_voxel = 0;
+  std::vector<std::uint8_t> kept(tets_before, 0);
   for (std::size_t i = 0; i < numbered.tets.size(); ++i) {
-    const auto& [t, copy, vertices] = numbered.tets[i];
-    const bool is_first = i == 0 || numbered.tets[i - 1].tet != t;
-    const bool is_last = i + 1 == numbered.tets.size() || numbered.tets[i + 1].tet != t;
-    if (is_first) mesh.tets[t] = vertices;
-    if (is_first && is_last) continue;
-    if (is_first) {
-      std::uint32_t all = 0;
-      for (std::uint32_t p = pieces.first(t); p < pieces.first(t) + pieces.count(t); ++p) all += pieces.voxels(p);
-      per_voxel = candidates.density[t] / static_cast<float>(all);
+    const CopiedTet& tet = numbered.tets[i];
+    if (kept[tet.tet] == 0) {
+      kept[tet.tet] = 1;
+      mesh.tets[tet.tet] = tet.vertices;
+      candidates.density[tet.tet] = densities[i];
     } else {
-      mesh.tets.push_back(vertices);
-      candidates.kept.push_back(1);
-      candidates.density.push_back(0);
+      kept.push_back(1);
+      mesh.tets.push_back(tet.vertices);
+      candidates.density.push_back(densities[i]);
     }
-    const std::size_t place = is_first ? t : mesh.tets.size() - 1;
-    candidates.density[place] = per_voxel * static_cast<float>(copies.voxels(copy));
   }
+  candidates.kept = std::move(kept);
   return mesh.tets.size() - tets_before;
 }
 
@@ -101,20 +97,19 @@ double smallest_tet(const TetMesh& mesh, const GridFrame& grid) {
 
 }  // namespace
 
-std::size_t separate(Candidates& candidates, const BitGrid& inside, StageWatch& watch) {
+std::size_t separate(Candidates& candidates, const BitGrid& inside, double rho_min, StageWatch& watch) {
   if (smallest_tet(candidates.mesh, inside.frame) < kLeastTet) return 0;
   const TetPieces pieces(candidates, inside, watch);
   const PieceGraph graph(candidates, pieces, inside, watch);
-  Copies copies(candidates, pieces, graph);
+  Copies copies(candidates, pieces, graph, rho_min);
   copies.glue();
-  if (copies.all_joined()) return 0;
   CopyVertices numbered = number_vertices(candidates, copies, graph);
   while (merge_folded(numbered.tets, copies)) {
     copies.glue();
     numbered = number_vertices(candidates, copies, graph);
   }
   attach_others(candidates, numbered);
-  return store_copies(candidates, pieces, copies, numbered);
+  return store_copies(candidates, copies, numbered);
 }
 
 }  // namespace tetsoup
