@@ -1,4 +1,4 @@
-// Disjoint sets.
+// Disjoint sets that are joined step by step.
 #pragma once
 
 #include <algorithm>
