@@ -7,7 +7,11 @@
 #include "base/bits.h"
 #include "base/require.h"
 #include "base/tet_geometry.h"
+#include "lattice/cover.h"
 #include "lattice/gather_candidates.h"
+#include "lattice/passed_voxels.h"
+#include "lattice/separate.h"
+#include "lattice/thin_parts.h"
 
 namespace tetsoup {
 namespace {
@@ -92,6 +96,12 @@ Filler::Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeO
       inside_(volume.inside, watch) {
   has_volume_ = volume.report.inside_voxels > 0 && volume.report.soup_covered >= kLeastCovered &&
                 core_share(volume.inside, watch) >= kLeastCore;
+  const bool covers_soup =
+      options.cover == Cover::Enclose || (options.thin == Thin::Keep && options.cover != Cover::Inside);
+  if (has_volume_ && covers_soup) {
+    passed_ = passed_voxels(volume.inside, soup, watch);
+    passed_blocks_.emplace(*passed_, watch);
+  }
 }
 
 Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
@@ -106,6 +116,8 @@ Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
     fill.by_soup = true;
     fill.crumbs = false;
   }
+  if (!fill.by_soup && !fill.crumbs && passed_)
+    add_passed(find_densities(*passed_blocks_, fill.frame, table_, options_.rho_min, watch_), table_.tet_count, filled);
   fill.sampled_tets = filled.sampled_tets;
   fill.candidates = gather_candidates(filled, fill.frame, table_);
   if (!fill.crumbs) mend(fill);
@@ -115,10 +127,18 @@ Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
 /// Mends what density leaves, step by step; each changes which candidates are kept, or the candidates, and notes in
 /// `fill.mended` what it did.
 void Filler::mend(Fill& fill) {
-  // cover:          options_.thin, options_.cover
-  // separate:       options_.separate
+  Candidates& candidates = fill.candidates;
+  LatticeReport& report = fill.mended;
+  if (!fill.by_soup) {
+    if (options_.cover == Cover::Inside) keep_inside_tets(candidates);
+    if (!candidates.passed.empty() && options_.thin == Thin::Keep)
+      report.thin_tets = keep_thin_parts(candidates, *passed_, watch_);
+    if (options_.cover == Cover::Enclose)
+      report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
+    if (options_.separate == Separate::Apart)
+      report.doubled_tets = separate(candidates, volume_.inside, options_.rho_min, watch_);
+  }
   // clean_topology: options_.topology
-  static_cast<void>(fill);
 }
 
 Shares Filler::shares(const Fill& fill) const {

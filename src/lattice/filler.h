@@ -1,6 +1,8 @@
 // One lattice, laid over the volume in a given pose: from frame to mended candidates.
 #pragma once
 
+#include <optional>
+
 #include "lattice/candidates.h"
 #include "lattice/densities.h"
 #include "lattice/inside_blocks.h"
@@ -58,6 +60,8 @@ class Filler {
   const GridFrame& grid_;
   const LatticeTable& table_;
   InsideBlocks inside_;
+  std::optional<BitGrid> passed_;  ///< Voxels that the soup passes through as well, if anything asks for them.
+  std::optional<InsideBlocks> passed_blocks_;
   bool has_volume_ = true;
   int fills_ = 0;
 };

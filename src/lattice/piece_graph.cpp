@@ -83,8 +83,8 @@ class FaceContacts {
 
 }  // namespace
 
-PieceGraph::PieceGraph(const Candidates& candidates, const TetPieces& pieces, const BitGrid& inside, StageWatch& watch)
-    : faces_(shared_faces(candidates.mesh)) {
+PieceGraph::PieceGraph(const TetMesh& mesh, const TetPieces& pieces, const BitGrid& inside, StageWatch& watch)
+    : faces_(shared_faces(mesh)) {
   constexpr std::int64_t kGrain = 256;  // faces
   const auto count = static_cast<std::int64_t>(faces_.size());
   struct Chunk {
@@ -94,7 +94,7 @@ PieceGraph::PieceGraph(const Candidates& candidates, const TetPieces& pieces, co
   std::vector<Chunk> chunks(static_cast<std::size_t>(chunk_count(count, kGrain)));
   parallel_for(count, kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
     Chunk& chunk = chunks[static_cast<std::size_t>(begin / kGrain)];
-    FaceContacts finder(candidates.mesh, pieces, inside, chunk.contacts);
+    FaceContacts finder(mesh, pieces, inside, chunk.contacts);
     for (auto f = static_cast<std::size_t>(begin); f < static_cast<std::size_t>(end); ++f) {
       finder.find(faces_[f]);
       chunk.ends.push_back(chunk.contacts.size());

@@ -66,12 +66,14 @@ class LocalWalk {
 class PieceGraph {
  public:
   /// All must outlive this. O(tets + voxels on faces between pieces), all threads.
-  PieceGraph(const Candidates& candidates, const TetPieces& pieces, const BitGrid& inside, StageWatch& watch);
+  PieceGraph(const TetMesh& mesh, const TetPieces& pieces, const BitGrid& inside, StageWatch& watch);
 
   const std::vector<SharedFace>& faces() const { return faces_; }
   std::span<const Contact> contacts(std::size_t face) const {
     return std::span(contacts_).subspan(contacts_begin_[face], contacts_begin_[face + 1] - contacts_begin_[face]);
   }
+  /// Of all faces.
+  const std::vector<Contact>& contacts() const { return contacts_; }
   /// Of every piece, those it touches.
   const Groups<std::uint32_t>& neighbours() const { return neighbours_; }
 

@@ -155,15 +155,16 @@ class TetPieces::Finder {
   std::vector<std::size_t> row_begin_;
 };
 
-TetPieces::TetPieces(const Candidates& candidates, const BitGrid& inside, StageWatch& watch) {
+TetPieces::TetPieces(const Candidates& candidates, const std::vector<float>& density, const BitGrid& inside,
+                     StageWatch& watch) {
   constexpr std::int64_t kGrain = 64;  // tets
   const TetMesh& mesh = candidates.mesh;
   std::vector<Found> found(mesh.tets.size());
   parallel_for(static_cast<std::int64_t>(mesh.tets.size()), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
-      const bool is_mixed = candidates.density[t] > 0 && candidates.density[t] < 1;
+      const bool is_mixed = density[t] > 0 && density[t] < 1;
       if (is_mixed) found[t] = Finder(corners_in_voxels(mesh, t, inside.frame), inside).find();
-      if (found[t].voxels.empty() && (candidates.density[t] > 0 || candidates.kept[t])) found[t].voxels.push_back(0);
+      if (found[t].voxels.empty() && (density[t] > 0 || candidates.kept[t])) found[t].voxels.push_back(0);
     }
   });
   first_.assign(1, 0);

@@ -20,8 +20,8 @@ class TetPieces {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// O(tets + rows of voxels in mixed tets), all threads.
-  TetPieces(const Candidates& candidates, const BitGrid& inside, StageWatch& watch);
+  /// `density` is the share of each tet that `inside` fills. O(tets + rows of voxels in mixed tets), all threads.
+  TetPieces(const Candidates& candidates, const std::vector<float>& density, const BitGrid& inside, StageWatch& watch);
 
   /// The pieces of tet t are first(t), ..., first(t) + count(t) - 1. A kept tet without any voxel has one piece all
   /// the same.
