@@ -132,7 +132,7 @@ void Filler::mend(Fill& fill) {
   if (!fill.by_soup) {
     if (options_.cover == Cover::Inside) keep_inside_tets(candidates);
     if (!candidates.passed.empty() && options_.thin == Thin::Keep)
-      report.thin_tets = keep_thin_parts(candidates, *passed_, watch_);
+      report.thin_tets = keep_thin_parts(candidates, volume_.inside, *passed_, watch_);
     if (options_.cover == Cover::Enclose)
       report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
     if (options_.separate == Separate::Apart)

@@ -11,19 +11,6 @@ namespace {
 
 constexpr double kSpacing = 0.6;  ///< Voxels between the points of a face: hardly a voxel in the face is missed.
 
-std::vector<SharedFace> shared_faces(const TetMesh& mesh) {
-  const std::vector<TetFace> faces = sorted_faces(mesh);
-  std::vector<SharedFace> shared;
-  shared.reserve(faces.size() / 2);
-  for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
-    end = face_run_end(faces, begin);
-    if (end - begin != 2) continue;
-    shared.push_back({faces[begin].corners, static_cast<std::uint32_t>(faces[begin].slot / 4),
-                      static_cast<std::uint32_t>(faces[begin + 1].slot / 4)});
-  }
-  return shared;
-}
-
 /// Visits the voxels of points spread over a triangle, n to a side, until `visit` says stop.
 template <class Visit>
 bool visit_voxels(const std::array<Vec3d, 3>& p, int n, const Visit& visit) {
@@ -83,8 +70,22 @@ class FaceContacts {
 
 }  // namespace
 
-PieceGraph::PieceGraph(const TetMesh& mesh, const TetPieces& pieces, const BitGrid& inside, StageWatch& watch)
-    : faces_(shared_faces(mesh)) {
+std::vector<SharedFace> shared_faces(const TetMesh& mesh) {
+  const std::vector<TetFace> faces = sorted_faces(mesh);
+  std::vector<SharedFace> shared;
+  shared.reserve(faces.size() / 2);
+  for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
+    end = face_run_end(faces, begin);
+    if (end - begin != 2) continue;
+    shared.push_back({faces[begin].corners, static_cast<std::uint32_t>(faces[begin].slot / 4),
+                      static_cast<std::uint32_t>(faces[begin + 1].slot / 4)});
+  }
+  return shared;
+}
+
+PieceGraph::PieceGraph(const TetMesh& mesh, const std::vector<SharedFace>& faces, const TetPieces& pieces,
+                       const BitGrid& inside, StageWatch& watch)
+    : faces_(faces) {
   constexpr std::int64_t kGrain = 256;  // faces
   const auto count = static_cast<std::int64_t>(faces_.size());
   struct Chunk {

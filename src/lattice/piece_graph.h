@@ -17,6 +17,9 @@ struct SharedFace {
   std::uint32_t a, b;
 };
 
+/// All faces that two tets of the mesh share. O(tets).
+std::vector<SharedFace> shared_faces(const TetMesh& mesh);
+
 /// Piece `a` of the face's tet a and piece `b` of its tet b have voxels of the face in common.
 struct Contact {
   std::uint32_t a, b;
@@ -65,8 +68,9 @@ class LocalWalk {
 
 class PieceGraph {
  public:
-  /// All must outlive this. O(tets + voxels on faces between pieces), all threads.
-  PieceGraph(const TetMesh& mesh, const TetPieces& pieces, const BitGrid& inside, StageWatch& watch);
+  /// `faces` are the mesh's and must outlive this. O(tets + voxels on faces between pieces), all threads.
+  PieceGraph(const TetMesh& mesh, const std::vector<SharedFace>& faces, const TetPieces& pieces, const BitGrid& inside,
+             StageWatch& watch);
 
   const std::vector<SharedFace>& faces() const { return faces_; }
   std::span<const Contact> contacts(std::size_t face) const {
@@ -78,7 +82,7 @@ class PieceGraph {
   const Groups<std::uint32_t>& neighbours() const { return neighbours_; }
 
  private:
-  std::vector<SharedFace> faces_;
+  const std::vector<SharedFace>& faces_;
   std::vector<std::size_t> contacts_begin_;
   std::vector<Contact> contacts_;
   Groups<std::uint32_t> neighbours_;

@@ -100,7 +100,8 @@ double smallest_tet(const TetMesh& mesh, const GridFrame& grid) {
 std::size_t separate(Candidates& candidates, const BitGrid& inside, double rho_min, StageWatch& watch) {
   if (smallest_tet(candidates.mesh, inside.frame) < kLeastTet) return 0;
   const TetPieces pieces(candidates, candidates.density, inside, watch);
-  const PieceGraph graph(candidates.mesh, pieces, inside, watch);
+  const std::vector<SharedFace> faces = shared_faces(candidates.mesh);
+  const PieceGraph graph(candidates.mesh, faces, pieces, inside, watch);
   Copies copies(candidates, pieces, graph, rho_min);
   copies.glue();
   CopyVertices numbered = number_vertices(candidates, copies, graph);

@@ -39,29 +39,27 @@ struct Extent {
 
 class ThinParts {
  public:
-  explicit ThinParts(Candidates& candidates) : c_(candidates), mesh_(candidates.mesh) {}
+  explicit ThinParts(Candidates& candidates) : c_(candidates), mesh_(candidates.mesh), faces_(shared_faces(mesh_)) {}
 
-  /// Tets that hold something, with nothing thick around; false if there are none that lack cover.
-  bool find_thin_tets() {
-    std::vector<std::uint8_t> thick(mesh_.vertices.size(), 0);
-    for_each_corner(
-        [&](std::size_t t, std::uint32_t v) { thick[v] |= c_.passed[t] >= kThick && c_.density[t] >= 0.5F; });
-    is_thin_.assign(mesh_.tets.size(), 0);
-    bool any = false;
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-      const Tet& tet = mesh_.tets[t];
-      is_thin_[t] =
-          c_.passed[t] >= kTrace && std::none_of(tet.begin(), tet.end(), [&](std::uint32_t v) { return thick[v]; });
-      any = any || (is_thin_[t] && !c_.kept[t]);
+  std::size_t keep(const BitGrid& inside, const BitGrid& passed, StageWatch& watch) {
+    std::size_t count = 0;
+    find_thin_tets();
+    if (find_bare_tets()) {
+      const TetPieces pieces(c_, c_.passed, passed, watch);
+      const PieceGraph graph(mesh_, faces_, pieces, passed, watch);
+      if (find_parts(pieces, graph)) {
+        count += keep_bare();
+        Unions parts = kept_parts();
+        count += join(pieces, graph, parts, thin_parts(pieces, parts));
+      }
     }
-    return any;
-  }
-
-  std::size_t keep(const BitGrid& passed, StageWatch& watch) {
-    const TetPieces pieces(c_, c_.passed, passed, watch);
-    const PieceGraph graph(mesh_, pieces, passed, watch);
-    if (!find_parts(pieces, graph)) return 0;
-    return keep_bare(pieces) + join(pieces, graph);
+    Unions parts = kept_parts();
+    if (count_parts(parts) > 1) {
+      const TetPieces pieces(c_, c_.density, inside, watch);
+      const PieceGraph graph(mesh_, faces_, pieces, inside, watch);
+      count += join(pieces, graph, parts, std::vector<std::uint8_t>(mesh_.tets.size(), 1));
+    }
+    return count;
   }
 
  private:
@@ -76,7 +74,28 @@ class ThinParts {
     return sum;
   }
 
-  /// Marks the pieces of thin parts that are long enough; false if there are none.
+  /// Tets that hold something, with nothing thick around.
+  void find_thin_tets() {
+    std::vector<std::uint8_t> thick(mesh_.vertices.size(), 0);
+    for_each_corner([&](std::size_t t, std::uint32_t v) { thick[v] |= c_.density[t] >= kThick; });
+    is_thin_.assign(mesh_.tets.size(), 0);
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) is_thin_[t] = c_.passed[t] >= kTrace && !has_corner(t, thick);
+  }
+  bool has_corner(std::size_t t, const std::vector<std::uint8_t>& marked) const {
+    const Tet& tet = mesh_.tets[t];
+    return std::any_of(tet.begin(), tet.end(), [&](std::uint32_t v) { return marked[v] != 0; });
+  }
+
+  /// Thin tets with no kept tet around; false if there are none.
+  bool find_bare_tets() {
+    std::vector<std::uint8_t> covered(mesh_.vertices.size(), 0);
+    for_each_corner([&](std::size_t t, std::uint32_t v) { covered[v] |= c_.kept[t]; });
+    is_bare_.assign(mesh_.tets.size(), 0);
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) is_bare_[t] = is_thin_[t] && !has_corner(t, covered);
+    return std::find(is_bare_.begin(), is_bare_.end(), 1) != is_bare_.end();
+  }
+
+  /// Marks the pieces and tets of thin parts that are long enough; false if there are none.
   bool find_parts(const TetPieces& pieces, const PieceGraph& graph) {
     Unions parts(pieces.size());
     const auto is_thin = [&](std::uint32_t piece) { return is_thin_[pieces.tet_of(piece)] != 0; };
@@ -86,26 +105,22 @@ class ThinParts {
     for (std::uint32_t p = 0; p < pieces.size(); ++p)
       if (is_thin(p)) extents[parts.find(p)].add(centre(pieces.tet_of(p)));
     const double least = kLeastLength * mean_edge(mesh_);
-    in_part_.assign(pieces.size(), 0);
-    for (std::uint32_t p = 0; p < pieces.size(); ++p) in_part_[p] = extents[parts.find(p)].diagonal() >= least;
+    in_part_.assign(mesh_.tets.size(), 0);
+    for (std::uint32_t p = 0; p < pieces.size(); ++p)
+      if (extents[parts.find(p)].diagonal() >= least) in_part_[pieces.tet_of(p)] = 1;
     return std::find(in_part_.begin(), in_part_.end(), 1) != in_part_.end();
   }
 
-  /// Where no kept tet is near.
-  std::size_t keep_bare(const TetPieces& pieces) {
-    std::vector<std::uint8_t> covered(mesh_.vertices.size(), 0), of_part(mesh_.tets.size(), 0);
+  std::size_t keep_bare() {
     std::vector<float> fullest(mesh_.vertices.size(), 0);
-    for (std::uint32_t p = 0; p < pieces.size(); ++p) of_part[pieces.tet_of(p)] |= in_part_[p];
     for_each_corner([&](std::size_t t, std::uint32_t v) {
-      covered[v] |= c_.kept[t];
-      if (of_part[t]) fullest[v] = std::max(fullest[v], c_.passed[t]);
+      if (in_part_[t]) fullest[v] = std::max(fullest[v], c_.passed[t]);
     });
     std::size_t count = 0;
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-      const Tet& tet = mesh_.tets[t];
-      if (!of_part[t] || std::any_of(tet.begin(), tet.end(), [&](std::uint32_t v) { return covered[v]; })) continue;
+      if (!in_part_[t] || !is_bare_[t]) continue;
       float most = 0;
-      for (const std::uint32_t v : tet) most = std::max(most, fullest[v]);
+      for (const std::uint32_t v : mesh_.tets[t]) most = std::max(most, fullest[v]);
       if (c_.passed[t] < kOfFullest * most) continue;
       c_.kept[t] = 1;
       ++count;
@@ -113,16 +128,32 @@ class ThinParts {
     return count;
   }
 
-  /// Shortest ways over the pieces from every component of kept tets, and of the places where two meet the cheapest
-  /// that join what is not joined yet: a minimum spanning tree.
-  std::size_t join(const TetPieces& pieces, const PieceGraph& graph) {
+  Unions kept_parts() const {
     Unions parts(mesh_.tets.size());
-    for (const SharedFace& f : graph.faces())
+    for (const SharedFace& f : faces_)
       if (c_.kept[f.a] && c_.kept[f.b]) parts.join(f.a, f.b);
-    std::vector<std::uint8_t> is_thin_part(mesh_.tets.size(), 0);
-    mark_thin_parts(pieces, parts, is_thin_part);
-    find_ways(pieces, graph);
+    return parts;
+  }
+  std::size_t count_parts(Unions& parts) const {
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) count += c_.kept[t] && parts.find(t) == t;
+    return count;
+  }
+  /// Those that hold a thin part and nothing thick, by their first tet.
+  std::vector<std::uint8_t> thin_parts(const TetPieces& pieces, Unions& parts) const {
+    std::vector<std::uint8_t> is_thin(mesh_.tets.size(), 0);
+    for (std::uint32_t p = 0; p < pieces.size(); ++p)
+      if (const std::size_t t = pieces.tet_of(p); in_part_[t] && c_.kept[t]) is_thin[parts.find(t)] = 1;
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
+      if (c_.kept[t] && c_.density[t] >= kThick) is_thin[parts.find(t)] = 0;
+    return is_thin;
+  }
 
+  /// Shortest ways over the pieces from every part, and of the places where two meet the cheapest that join what is not
+  /// joined yet: a minimum spanning tree. One of the two must be of those to be joined.
+  std::size_t join(const TetPieces& pieces, const PieceGraph& graph, Unions& parts,
+                   const std::vector<std::uint8_t>& to_join) {
+    find_ways(pieces, graph);
     struct Bridge {
       float cost;
       std::uint32_t a, b;
@@ -131,8 +162,7 @@ class ThinParts {
     const auto part_of = [&](std::uint32_t piece) { return parts.find(pieces.tet_of(origin_[piece])); };
     for (const Contact& c : graph.contacts()) {
       if (origin_[c.a] == kNobody || origin_[c.b] == kNobody || part_of(c.a) == part_of(c.b)) continue;
-      if (is_thin_part[part_of(c.a)] || is_thin_part[part_of(c.b)])
-        bridges.push_back({cost_[c.a] + cost_[c.b], c.a, c.b});
+      if (to_join[part_of(c.a)] || to_join[part_of(c.b)]) bridges.push_back({cost_[c.a] + cost_[c.b], c.a, c.b});
     }
     std::sort(bridges.begin(), bridges.end(),
               [](const Bridge& p, const Bridge& q) { return std::tie(p.cost, p.a, p.b) < std::tie(q.cost, q.a, q.b); });
@@ -143,14 +173,6 @@ class ThinParts {
       count += keep_way(bridge.a, pieces) + keep_way(bridge.b, pieces);
     }
     return count;
-  }
-
-  /// Components of kept tets that hold a thin part and nothing thick.
-  void mark_thin_parts(const TetPieces& pieces, Unions& parts, std::vector<std::uint8_t>& is_thin_part) const {
-    for (std::uint32_t p = 0; p < pieces.size(); ++p)
-      if (in_part_[p] && c_.kept[pieces.tet_of(p)]) is_thin_part[parts.find(pieces.tet_of(p))] = 1;
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
-      if (c_.kept[t] && c_.density[t] >= kThick) is_thin_part[parts.find(t)] = 0;
   }
 
   void find_ways(const TetPieces& pieces, const PieceGraph& graph) {
@@ -194,17 +216,17 @@ class ThinParts {
 
   Candidates& c_;
   const TetMesh& mesh_;
-  std::vector<std::uint8_t> is_thin_;           ///< Of every tet,
-  std::vector<std::uint8_t> in_part_;           ///< of every piece: it belongs to a thin part of some length,
-  std::vector<float> cost_;                     ///< and of the way there from the nearest kept tet, its cost,
-  std::vector<std::uint32_t> origin_, before_;  ///< its first piece and the one before.
+  std::vector<SharedFace> faces_;
+  std::vector<std::uint8_t> is_thin_, is_bare_;  ///< Of every tet,
+  std::vector<std::uint8_t> in_part_;            ///< and whether it belongs to a thin part of some length.
+  std::vector<float> cost_;                      ///< Of every piece: of the way there from the nearest kept tet,
+  std::vector<std::uint32_t> origin_, before_;   ///< its first piece and the one before.
 };
 
 }  // namespace
 
-std::size_t keep_thin_parts(Candidates& candidates, const BitGrid& passed, StageWatch& watch) {
-  ThinParts parts(candidates);
-  return parts.find_thin_tets() ? parts.keep(passed, watch) : 0;
+std::size_t keep_thin_parts(Candidates& candidates, const BitGrid& inside, const BitGrid& passed, StageWatch& watch) {
+  return ThinParts(candidates).keep(inside, passed, watch);
 }
 
 }  // namespace tetsoup
