@@ -96,7 +96,6 @@ TopologyReport clean_topology(Candidates& candidates, const TopologyOptions& opt
     TetComplex complex(candidates);
     report.tets_dropped += complex.dropped_at_faces();
     watch.step(0.4);
-    drop_parts(complex, options.min_part, report);
     mend_and_fill(complex, options, report, watch);
     watch.step(0.7);
     if (options.boundary_only == BoundaryOnly::Remove) remove_boundary_only(complex, report);

@@ -11,11 +11,12 @@ namespace tetsoup {
 namespace {
 
 // Costs are volumes: what is added outside, what is lost inside.
-constexpr double kDropWeight = 1.5;  ///< To lose inside volume is worse than to add outside volume: it may cut a limb.
+constexpr double kDropWeight = 2.0;  ///< To lose inside volume is worse than to add outside volume: it may cut a limb.
 constexpr double kHeldWeight = 1e3;  ///< To lose a held tet: only if nothing else is left.
 // To double a vertex changes no volume, but what hung together by it no longer does. In mean tets of the star:
-constexpr double kDoubleSamePart = 0.5;   ///< The tets are also joined elsewhere;
-constexpr double kDoubleOtherPart = 1.0;  ///< they are not, so a bridge is taken if it is reasonably dense.
+constexpr double kDoubleSamePart = 0.25;  ///< The tets are also joined elsewhere;
+constexpr double kDoubleOtherPart = 4.0;  ///< they are not: limbs thinner than a tet are strung together like this.
+constexpr double kLeastBridge = 0.15;     ///< Mean density of a bridge; through a clear gap none is built.
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWatchEvery = 256;  ///< Repairs between two looks at the watch.
@@ -46,6 +47,7 @@ class Mender {
   }
   double cost_to_flip(std::uint32_t t) const;
   void consider_flips(const Star& star, std::uint32_t v);
+  bool is_thin_air(const std::vector<std::uint32_t>& tets) const;
   void consider(const std::vector<std::uint32_t>& tets);
   void consider_doubling(const Star& star, std::uint32_t v);
   std::vector<std::uint32_t> vertices_of(const std::vector<std::uint32_t>& tets) const;
@@ -61,11 +63,12 @@ class Mender {
   std::vector<std::uint32_t> new_bad_;
   Ways ways_ = Ways::All;
   double mean_volume_ = 0;  ///< Of the tets around the vertex being mended.
+  bool can_double_ = false;
   Repair best_;
 };
 
 double Mender::cost_to_flip(std::uint32_t t) const {
-  const double inside = complex_.density(t), volume = complex_.volume(t);
+  const double inside = std::clamp<double>(complex_.density(t), 0, 1), volume = complex_.volume(t);
   if (!complex_.is_kept(t)) return ways_ == Ways::All && complex_.is_addable(t) ? (1 - inside) * volume : kInfinity;
   return complex_.is_held(t) ? kHeldWeight * volume : kDropWeight * inside * volume;
 }
@@ -93,11 +96,22 @@ int Mender::count_mended(const std::vector<std::uint32_t>& tets, const std::vect
   return mended;
 }
 
+/// Whether the tets would bridge a clear gap, though the vertex can be doubled instead.
+bool Mender::is_thin_air(const std::vector<std::uint32_t>& tets) const {
+  if (!can_double_ || complex_.is_kept(tets[0])) return false;
+  double inside = 0, volume = 0;
+  for (const std::uint32_t t : tets) {
+    inside += complex_.density(t) * complex_.volume(t);
+    volume += complex_.volume(t);
+  }
+  return inside < kLeastBridge * volume;
+}
+
 /// Takes the flip as the best so far if it is.
 void Mender::consider(const std::vector<std::uint32_t>& tets) {
   double cost = 0;
   for (const std::uint32_t t : tets) cost += cost_to_flip(t);
-  if (tets.empty() || !std::isfinite(cost)) return;
+  if (tets.empty() || !std::isfinite(cost) || is_thin_air(tets)) return;
   const std::vector<std::uint32_t> vertices = vertices_of(tets);
   const auto at_most = std::count_if(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return is_bad(v); });
   const auto score = [&](double mended) {
@@ -126,7 +140,6 @@ void Mender::consider_flips(const Star& star, std::uint32_t v) {
 }
 
 void Mender::consider_doubling(const Star& star, std::uint32_t v) {
-  if (star.kept_pieces() < 2) return;
   double mended = 1;
   bool is_one_part = true;
   std::size_t part = complex_.tet_count();
@@ -173,7 +186,8 @@ bool Mender::mend(std::uint32_t v, Ways ways) {
   mean_volume_ = 0;
   for (std::size_t m = 0; m < star.size(); ++m) mean_volume_ += complex_.volume(star.tet(m));
   mean_volume_ /= static_cast<double>(star.size());
-  consider_doubling(star, v);
+  can_double_ = star.kept_pieces() > 1;
+  if (can_double_) consider_doubling(star, v);
   consider_flips(star, v);
   if (!std::isfinite(best_.score)) return false;
   carry_out(v);
