@@ -7,6 +7,7 @@
 #include "base/bits.h"
 #include "base/mesh_voxels.h"
 #include "base/require.h"
+#include "lattice/clean_topology.h"
 #include "lattice/cover.h"
 #include "lattice/gather_candidates.h"
 #include "lattice/passed_voxels.h"
@@ -134,7 +135,7 @@ void Filler::mend(Fill& fill) {
     if (options_.separate == Separate::Apart)
       report.doubled_tets = separate(candidates, volume_.inside, options_.rho_min, watch_);
   }
-  // clean_topology: options_.topology
+  report.topology = clean_topology(candidates, options_.topology, watch_);
 }
 
 Shares Filler::shares(const TetMesh& mesh) const {
