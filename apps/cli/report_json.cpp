@@ -102,6 +102,10 @@ Json pseudo_volume_json(const PseudoVolumeReport& report) {
           {"candidates", candidates}};
 }
 
+Json degrees_json(const Vec3d& radians) {
+  return vector_json({to_degrees(radians.x), to_degrees(radians.y), to_degrees(radians.z)});
+}
+
 Json lattice_json(const LatticeReport& report) {
   return {{"cells", report.cells},
           {"cell_size", report.cell_size},
@@ -110,7 +114,14 @@ Json lattice_json(const LatticeReport& report) {
           {"sampled_tets", report.sampled_tets},
           {"kept_volume", report.kept_volume},
           {"pseudo_volume", report.pseudo_volume},
-          {"kept_by_soup", report.kept_by_soup}};
+          {"kept_by_soup", report.kept_by_soup},
+          {"fills", report.fills},
+          {"translate", vector_json(report.translate_cells)},
+          {"rotate_deg", degrees_json(report.rotate)},
+          {"overlap", report.overlap},
+          {"overlap_unfitted", report.overlap_unfitted},
+          {"excess_volume", report.excess_volume},
+          {"lacking_volume", report.lacking_volume}};
 }
 
 Json smooth_json(const SmoothReport& report) {
@@ -135,7 +146,6 @@ Json options_json(const MeshOptions& options) {
   const DistanceOptions& distance = options.distance;
   const PseudoVolumeOptions& volume = options.pseudo_volume;
   const LatticeOptions& lattice = options.lattice;
-  const Vec3d turn{to_degrees(lattice.rotate.x), to_degrees(lattice.rotate.y), to_degrees(lattice.rotate.z)};
   return {{"voxels", optional_json(distance.voxels)},
           {"voxel_size", optional_json(distance.voxel_size)},
           {"k", optional_json(volume.k)},
@@ -144,11 +154,16 @@ Json options_json(const MeshOptions& options) {
           {"rays", volume.rays},
           {"placement", volume.placement == Placement::Closest ? "closest" : "entry"},
           {"cavities", volume.cavities == Cavities::Fill ? "fill" : "keep"},
+          {"tets", optional_json(lattice.tets)},
+          {"vertices", optional_json(lattice.vertices)},
+          {"edge", optional_json(lattice.edge)},
           {"cells", optional_json(lattice.cells)},
           {"cell_size", optional_json(lattice.cell_size)},
+          {"lattice", lattice.kind == LatticeKind::Bcc ? "bcc" : "five"},
+          {"fit", lattice.fit == Fit::Search},
           {"rho_min", lattice.rho_min},
           {"translate", vector_json(lattice.translate_cells)},
-          {"rotate_deg", vector_json(turn)},
+          {"rotate_deg", degrees_json(lattice.rotate)},
           {"passes", options.smooth.passes},
           {"strength", options.smooth.strength},
           {"min_angle_deg", to_degrees(options.smooth.min_dihedral)},
