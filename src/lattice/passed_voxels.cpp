@@ -12,7 +12,7 @@ namespace tetsoup {
 namespace {
 
 /// Voxels between points on a triangle: the voxels of two neighbouring points touch, so a triangle hangs together.
-constexpr double kSpacing = 0.8;
+constexpr double kSpacing = 1;
 
 void set_voxel(BitGrid& grid, const Vec3d& at) {
   const int x = floor_to_int(at.x), y = floor_to_int(at.y), z = floor_to_int(at.z);
