@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/bits.h"
+#include "base/mesh_voxels.h"
 #include "base/require.h"
-#include "base/tet_geometry.h"
 #include "lattice/cover.h"
 #include "lattice/gather_candidates.h"
 #include "lattice/passed_voxels.h"
@@ -67,11 +67,6 @@ double core_share(const BitGrid& inside, StageWatch& watch) {
   return counts.all == 0 ? 0 : static_cast<double>(counts.core) / static_cast<double>(counts.all);
 }
 
-double volume_of(const TetMesh& mesh, const Tet& t) {
-  return signed_volume(to_double(mesh.vertices[t[0]]), to_double(mesh.vertices[t[1]]), to_double(mesh.vertices[t[2]]),
-                       to_double(mesh.vertices[t[3]]));
-}
-
 }  // namespace
 
 std::size_t Fill::kept_tets() const {
@@ -107,7 +102,7 @@ Filler::Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeO
 Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
   check_cell(pose.cell_size);
   const double overhang = static_cast<double>(table_.reach) / kStepsPerCell - 1;
-  Fill fill{pose, make_lattice_frame(grid_, pose, overhang), {}, false, false, 0, {}};
+  Fill fill{pose, make_lattice_frame(grid_, pose, overhang), {}, false, false, 0, 0, {}};
   ++fills_;
   FilledCells filled = find_densities(inside_, fill.frame, table_, options_.rho_min, watch_);
   fill.crumbs = !has_volume_ || !holds_together(filled, table_);
@@ -118,6 +113,7 @@ Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
   }
   if (!fill.by_soup && !fill.crumbs && passed_)
     add_passed(find_densities(*passed_blocks_, fill.frame, table_, options_.rho_min, watch_), table_.tet_count, filled);
+  fill.dense_tets = filled.kept_tets;
   fill.sampled_tets = filled.sampled_tets;
   fill.candidates = gather_candidates(filled, fill.frame, table_);
   if (!fill.crumbs) mend(fill);
@@ -141,17 +137,11 @@ void Filler::mend(Fill& fill) {
   // clean_topology: options_.topology
 }
 
-Shares Filler::shares(const Fill& fill) const {
-  Shares shares;
-  const Candidates& c = fill.candidates;
-  for (std::size_t t = 0; t < c.kept.size(); ++t) {
-    if (c.kept[t] == 0) continue;
-    const double volume = volume_of(c.mesh, c.mesh.tets[t]), density = static_cast<double>(c.density[t]);
-    shares.both += density * volume;
-    shares.only_mesh += (1 - density) * volume;
-  }
-  shares.only_volume = std::max(0.0, volume_.report.volume - shares.both);
-  return shares;
+Shares Filler::shares(const TetMesh& mesh) const {
+  const MeshVoxels voxels = count_mesh_voxels(mesh, volume_.inside, watch_);
+  const auto volume = [&](std::size_t count) { return static_cast<double>(count) * std::pow(grid_.voxel_size, 3); };
+  return {volume(voxels.in_both), volume(voxels.in_mesh - voxels.in_both),
+          volume(volume_.report.inside_voxels - voxels.in_both)};
 }
 
 double Filler::longest_edge() const {
