@@ -74,11 +74,11 @@ std::size_t store_copies(Candidates& candidates, Copies& copies, const CopyVerti
   for (std::size_t i = 0; i < numbered.tets.size(); ++i) {
     const CopiedTet& tet = numbered.tets[i];
     if (kept[tet.tet] == 0) {
-      kept[tet.tet] = 1;
+      kept[tet.tet] = candidates.kept[tet.tet];
       mesh.tets[tet.tet] = tet.vertices;
       candidates.density[tet.tet] = densities[i];
     } else {
-      kept.push_back(1);
+      kept.push_back(candidates.kept[tet.tet]);
       mesh.tets.push_back(tet.vertices);
       candidates.density.push_back(densities[i]);
     }

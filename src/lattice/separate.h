@@ -14,7 +14,7 @@ namespace tetsoup {
 /// face if their pieces touch through it, and get common vertices; elsewhere vertices are doubled [Molino04]. Pieces
 /// that hang together within the tets around count as one, so that a notch or the grid's noise doubles nothing; where
 /// nothing is apart, nothing changes, not a bit. A copy that is not dense enough by its own part goes if that part has
-/// dense tets around it; of parts too thin to have any, the copies stay.
+/// dense tets around it; of parts too thin to have any, the copies stay, and of tets marked kHeld.
 ///
 /// @return  Copies made. They stand at the end, as doubled vertices do; a copy's density is its part's share.
 /// Cost: O(tets + rows of voxels in mixed tets); the first half on all threads.

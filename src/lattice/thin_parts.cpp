@@ -89,7 +89,7 @@ class ThinParts {
   /// Tets that hold something, with nothing thick and no kept tet around.
   void find_bare_tets() {
     std::vector<std::uint8_t> covered(mesh_.vertices.size(), 0);
-    for_each_corner([&](std::size_t t, std::uint32_t v) { covered[v] |= c_.kept[t] || c_.density[t] >= kThick; });
+    for_each_corner([&](std::size_t t, std::uint32_t v) { covered[v] |= c_.kept[t] != 0 || c_.density[t] >= kThick; });
     is_bare_.assign(mesh_.tets.size(), 0);
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) is_bare_[t] = c_.passed[t] >= kTrace && !has_corner(t, covered);
   }
@@ -118,7 +118,7 @@ class ThinParts {
       float most = 0;
       for (const std::uint32_t v : mesh_.tets[t]) most = std::max(most, fullest[v]);
       if (c_.passed[t] < kOfFullest * most) continue;
-      c_.kept[t] = 1;
+      c_.kept[t] = kHeld;
       ++count;
     }
     return count;
@@ -201,9 +201,8 @@ class ThinParts {
   std::size_t keep_way(std::uint32_t piece, const TetPieces& pieces) {
     std::size_t count = 0;
     for (; before_[piece] != kNobody; piece = before_[piece]) {
-      std::uint8_t& kept = c_.kept[pieces.tet_of(piece)];
-      count += kept == 0;
-      kept = 1;
+      c_.kept[pieces.tet_of(piece)] = kHeld;
+      ++count;
     }
     return count;
   }
