@@ -7,6 +7,7 @@
 #include "base/bits.h"
 #include "base/require.h"
 #include "base/tet_geometry.h"
+#include "lattice/clean_topology.h"
 #include "lattice/gather_candidates.h"
 
 namespace tetsoup {
@@ -71,7 +72,8 @@ double volume_of(const TetMesh& mesh, const Tet& t) {
 }  // namespace
 
 std::size_t Fill::kept_tets() const {
-  return static_cast<std::size_t>(std::count(candidates.kept.begin(), candidates.kept.end(), 1));
+  return candidates.kept.size() -
+         static_cast<std::size_t>(std::count(candidates.kept.begin(), candidates.kept.end(), std::uint8_t{0}));
 }
 
 std::size_t Fill::kept_vertices() const {
@@ -117,8 +119,7 @@ Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
 void Filler::mend(Fill& fill) {
   // cover:          options_.thin, options_.cover
   // separate:       options_.separate
-  // clean_topology: options_.topology
-  static_cast<void>(fill);
+  fill.mended.topology = clean_topology(fill.candidates, options_.topology, watch_);
 }
 
 Shares Filler::shares(const Fill& fill) const {
