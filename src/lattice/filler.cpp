@@ -137,6 +137,7 @@ void Filler::mend(Fill& fill) {
   TopologyOptions topology = options_.topology;
   if (options_.cover == Cover::Enclose) topology.min_part = 0;  // or what was enclosed would be dropped
   report.topology = clean_topology(candidates, topology, watch_);
+  if (options_.cover == Cover::Enclose) report.enclosing_tets += enclose_apart(candidates, soup_.soup.vertices, watch_);
 }
 
 Shares Filler::shares(const TetMesh& mesh) const {
