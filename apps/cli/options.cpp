@@ -71,21 +71,12 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
         options.rays = text == "26" ? 26 : 13;
       },
       "Rays that vote on every voxel (26)");
-  CLI::Option* const placement = add_flag(
-      app, "--placement", "closest|entry",
-      [&options](const std::string& text) {
-        if (text != "closest" && text != "entry")
-          throw InvalidInput("--placement " + text + ": must be closest or entry");
-        options.placement = text == "entry" ? Placement::Entry : Placement::Closest;
-      },
+  CLI::Option* const placement = add_choice<Placement>(
+      app, "--placement", options.placement, {{"closest", Placement::Closest}, {"entry", Placement::Entry}},
       "Where a ray crosses the band: at its closest approach to the\nsoup, or on entering, which thickens the result "
       "(closest)");
-  CLI::Option* const cavities = add_flag(
-      app, "--cavities", "fill|keep",
-      [&options](const std::string& text) {
-        if (text != "fill" && text != "keep") throw InvalidInput("--cavities " + text + ": must be fill or keep");
-        options.cavities = text == "keep" ? Cavities::Keep : Cavities::Fill;
-      },
+  CLI::Option* const cavities = add_choice<Cavities>(
+      app, "--cavities", options.cavities, {{"fill", Cavities::Fill}, {"keep", Cavities::Keep}},
       "Space that the soup encloses although rays call it outside, as\nwhere closed parts overlap: inside, or left "
       "hollow (fill)");
   for (CLI::Option* const option : {k, voxels, band, rays, placement, cavities}) option->group(kVolumeGroup);

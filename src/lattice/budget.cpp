@@ -4,16 +4,21 @@
 #include <cmath>
 #include <vector>
 
+#include "lattice/fit_points.h"
+
 namespace tetsoup {
 namespace {
 
 constexpr double kTolerance = 0.05, kToleranceOfFew = 0.10;
 constexpr std::size_t kFew = 200;
 constexpr double kGoodEnough = 0.8;  ///< Of the tolerance: a search ends here.
-constexpr int kTriesAsGiven = 2;     ///< Fills before the frame is shifted.
+constexpr int kTriesAsGiven = 2;     ///< Fills before the frame is shifted,
+constexpr int kTriesUpright = 5;     ///< and before it is turned.
 /// Cells. With no symmetry: shapes with some then lose or gain their tets one by one as the edge changes, not eight at
 /// once.
 constexpr Vec3d kShift{0.31, 0.17, 0.43};
+/// Radians. A flat side along the lattice loses or gains a whole layer at once, wherever the lattice lies.
+constexpr Vec3d kTurn{0.07, 0.05, 0.06};
 constexpr double kSharedVertices = 1.6;  ///< Vertices of a coarse mesh over those of as much endless lattice.
 
 struct Try {
@@ -57,27 +62,37 @@ double fitted_power(const std::vector<Try>& tries, double power) {
 
 class Search {
  public:
-  Search(Filler& filler, const Budget& budget, const Pose& start) : filler_(filler), budget_(budget), pose_(start) {}
+  Search(Filler& filler, const Budget& budget, const Pose& start, FineTuning tuning)
+      : filler_(filler), budget_(budget), pose_(start), tuning_(tuning), place_(place_of(start, filler.grid())) {}
 
   Fill run(int most_fills) {
     const double largest = 2 * filler_.longest_edge(), smallest = filler_.smallest_cell();
     const double stop = kGoodEnough * budget_.tolerance();
+    double cell_size = pose_.cell_size;
     for (int i = 0; i < most_fills; ++i) {
-      pose_.cell_size = std::clamp(pose_.cell_size, smallest, std::max(smallest, largest));
-      if (!tries_.empty() && !crumbs_ && std::log(pose_.cell_size) == tries_.back().log_edge) break;
+      cell_size = std::clamp(cell_size, smallest, std::max(smallest, largest));
+      if (!tries_.empty() && !crumbs_ && cell_size == pose_.cell_size) break;
+      set_pose(cell_size);
       try_pose(i);
       if (std::abs(std::expm1(tries_.back().miss)) <= stop && !crumbs_) break;
-      const double power = fitted_power(tries_, filler_.has_volume() ? 3 : 2);
-      pose_.cell_size = std::exp(next_log_edge(tries_, power));
-      if (i + 1 == kTriesAsGiven) {
-        pose_.translate_cells += kShift;
-        tries_.clear();
-      }
+      cell_size = std::exp(next_log_edge(tries_, fitted_power(tries_, filler_.has_volume() ? 3 : 2)));
+      if (tuning_ == FineTuning::Frame) tune_after(i + 1);
     }
     return std::move(best_);
   }
 
  private:
+  void set_pose(double cell_size) {
+    pose_.cell_size = place_.cell_size = cell_size;
+    if (tuning_ == FineTuning::None) pose_ = pose_of(place_, filler_.grid());
+  }
+
+  void tune_after(int tries) {
+    if (tries == kTriesAsGiven) pose_.translate_cells += kShift;
+    if (tries == kTriesUpright) pose_.rotate += kTurn;
+    if (tries == kTriesAsGiven) tries_.clear();
+  }
+
   /// The first time that density leaves crumbs the edge may be to blame; the next time the soup decides.
   void try_pose(int i) {
     Fill fill = filler_.fill(pose_, i == 0 ? Filler::Crumbs::Report : Filler::Crumbs::BySoup);
@@ -99,6 +114,8 @@ class Search {
   Filler& filler_;
   const Budget& budget_;
   Pose pose_;
+  FineTuning tuning_;
+  Place place_;
   std::vector<Try> tries_;
   bool crumbs_ = false;
   Fill best_;
@@ -111,8 +128,8 @@ double Budget::tolerance() const {
   return wanted >= kFew ? kTolerance : kToleranceOfFew;
 }
 
-Fill search_budget(Filler& filler, const Budget& budget, const Pose& start, int most_fills) {
-  return Search(filler, budget, start).run(most_fills);
+Fill search_budget(Filler& filler, const Budget& budget, const Pose& start, FineTuning tuning, int most_fills) {
+  return Search(filler, budget, start, tuning).run(most_fills);
 }
 
 double expected_cell(const LatticeTable& table, const Budget& budget, double volume) {

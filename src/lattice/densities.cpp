@@ -107,7 +107,8 @@ class CellJudge {
       const TetCorners corners = table_.corners(t, is_odd(cell));
       const Vec3d lo = min(min(corners[0], corners[1]), min(corners[2], corners[3]));
       const Vec3d hi = max(max(corners[0], corners[1]), max(corners[2], corners[3]));
-      counts[t] = tet_rows_.count(cell, t, voxels_in(lower_corner(cell) + lo, lower_corner(cell) + hi, 0));
+      const VoxelRange box = voxels_in(lower_corner(cell) + lo, lower_corner(cell) + hi, 0);
+      counts[t] = tet_rows_.count(cell, t, box);
     }
     return counts;
   }

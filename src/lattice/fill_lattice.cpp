@@ -7,6 +7,7 @@
 #include "base/tet_geometry.h"
 #include "lattice/budget.h"
 #include "lattice/filler.h"
+#include "lattice/fit.h"
 
 namespace tetsoup {
 namespace {
@@ -61,13 +62,18 @@ double given_cell_size(const LatticeOptions& o, const Filler& filler, const Grid
   return o.edge ? *o.edge / filler.table().mean_edge : *o.cell_size;
 }
 
+double volume_of(const TetMesh& mesh) {
+  double sum = 0;
+  for (const Tet& t : mesh.tets)
+    sum += signed_volume(to_double(mesh.vertices[t[0]]), to_double(mesh.vertices[t[1]]), to_double(mesh.vertices[t[2]]),
+                         to_double(mesh.vertices[t[3]]));
+  return sum;
+}
+
 /// The same budget with the next whole number of cells along the longest axis, so that the lattice ends where the box
 /// does, if that meets both the budget and, much better, the volume: a block is then met exactly.
 Fill with_whole_cells(Fill fill, Filler& filler, const Budget& budget, double volume) {
-  const auto volume_miss = [&](const Fill& f) {
-    const Shares s = filler.shares(f);
-    return std::abs((s.both + s.only_mesh) / volume - 1);
-  };
+  const auto volume_miss = [&](const Fill& f) { return std::abs(volume_of(kept_mesh(f.candidates)) / volume - 1); };
   if (fill.by_soup) return fill;
   const double miss = volume_miss(fill);
   if (miss < kVolumeMiss) return fill;
@@ -77,8 +83,7 @@ Fill with_whole_cells(Fill fill, Filler& filler, const Budget& budget, double vo
     Pose pose = fill.pose;
     pose.cell_size = longest / whole;
     Fill other = filler.fill(pose);
-    const double missed = std::abs(static_cast<double>(budget.count(other)) / static_cast<double>(budget.wanted) - 1);
-    if (!other.by_soup && missed <= budget.tolerance() && volume_miss(other) < miss / 2) return other;
+    if (!other.by_soup && budget.miss(other) <= budget.tolerance() && volume_miss(other) < miss / 2) return other;
   }
   return fill;
 }
@@ -88,7 +93,33 @@ Fill fill_to_budget(Filler& filler, const Budget& budget, Pose pose, const Pseud
   constexpr double kOfLongest = 16;
   pose.cell_size = filler.has_volume() ? expected_cell(filler.table(), budget, volume.report.volume)
                                        : filler.longest_edge() / kOfLongest;
-  return with_whole_cells(search_budget(filler, budget, pose, kMostFills), filler, budget, volume.report.volume);
+  return with_whole_cells(search_budget(filler, budget, pose, FineTuning::Frame, kMostFills), filler, budget,
+                          volume.report.volume);
+}
+
+/// The best of what the search for a fit finds, as far as it meets the budget; `first` if that is no better.
+Fill fitted(Fill first, Filler& filler, const std::optional<Budget>& budget, const LatticeOptions& options,
+            const PseudoVolume& volume, StageWatch& watch) {
+  constexpr std::size_t kMostPlaces = 4;
+  constexpr int kMostFillsEach = 3;
+  FitSearch search{volume.inside, filler.table(), options.rho_min, FitSearch::Edge::Given,
+                   static_cast<double>(first.dense_tets)};
+  if (budget) {
+    search.edge = FitSearch::Edge::Searched;
+    search.tets *= static_cast<double>(budget->wanted) / static_cast<double>(budget->count(first));
+  }
+  const std::vector<Place> places = search_fit(search, place_of(first.pose, filler.grid()), kMostPlaces, watch);
+  double best = filler.shares(kept_mesh(first.candidates)).overlap();
+  const auto misses = [&](const Fill& fill) { return budget && budget->miss(fill) > budget->tolerance(); };
+  for (const Place& place : places) {
+    const Pose pose = pose_of(place, filler.grid());
+    Fill other = budget ? search_budget(filler, *budget, pose, FineTuning::None, kMostFillsEach) : filler.fill(pose);
+    const double overlap = filler.shares(kept_mesh(other.candidates)).overlap();
+    if (other.by_soup || misses(other) || (overlap <= best && !misses(first))) continue;
+    best = overlap;
+    first = std::move(other);
+  }
+  return first;
 }
 
 /// Cells with a tet of the mesh: the tets of one lie next to each other but for those that were added last.
@@ -106,15 +137,7 @@ std::size_t count_used_cells(const TetMesh& mesh, const LatticeFrame& frame) {
   return static_cast<std::size_t>(std::unique(cells.begin(), cells.end()) - cells.begin());
 }
 
-double volume_of(const TetMesh& mesh) {
-  double sum = 0;
-  for (const Tet& t : mesh.tets)
-    sum += signed_volume(to_double(mesh.vertices[t[0]]), to_double(mesh.vertices[t[1]]), to_double(mesh.vertices[t[2]]),
-                         to_double(mesh.vertices[t[3]]));
-  return sum;
-}
-
-LatticeMesh finished(const Fill& fill, const Filler& filler, const PseudoVolume& volume) {
+LatticeMesh finished(const Fill& fill, const Filler& filler, const PseudoVolume& volume, int fills) {
   LatticeMesh result;
   result.mesh = kept_mesh(fill.candidates);
   TETSOUP_ASSERT(!result.mesh.tets.empty());  // a finite triangle always touches a tet
@@ -128,10 +151,10 @@ LatticeMesh finished(const Fill& fill, const Filler& filler, const PseudoVolume&
   report.kept_volume = volume_of(result.mesh);
   report.pseudo_volume = volume.report.volume;
   report.kept_by_soup = fill.by_soup;
-  report.fills = filler.fills();
+  report.fills = fills;
   report.translate_cells = fill.pose.translate_cells;
   report.rotate = fill.pose.rotate;
-  const Shares shares = filler.shares(fill);
+  const Shares shares = filler.shares(result.mesh);
   report.overlap = shares.overlap();
   report.excess_volume = shares.only_mesh;
   report.lacking_volume = shares.only_volume;
@@ -149,8 +172,14 @@ LatticeMesh fill_lattice(const PseudoVolume& volume, const CleanSoup& soup, cons
   Pose pose{0, options.translate_cells, options.rotate};
   const std::optional<Budget> budget = budget_of(options);
   if (!budget) pose.cell_size = given_cell_size(options, filler, volume.inside.frame);
-  const Fill fill = budget ? fill_to_budget(filler, *budget, pose, volume) : filler.fill(pose);
-  return finished(fill, filler, volume);
+  Fill fill = budget ? fill_to_budget(filler, *budget, pose, volume) : filler.fill(pose);
+  const int fills = filler.fills();
+  if (options.fit == Fit::Off || fill.by_soup) return finished(fill, filler, volume, fills);
+  const double unfitted = filler.shares(kept_mesh(fill.candidates)).overlap();
+  fill = fitted(std::move(fill), filler, budget, options, volume, watch);
+  LatticeMesh result = finished(fill, filler, volume, fills);
+  result.report.overlap_unfitted = unfitted;
+  return result;
 }
 
 }  // namespace tetsoup

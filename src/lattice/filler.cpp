@@ -5,10 +5,14 @@
 #include <cmath>
 
 #include "base/bits.h"
+#include "base/mesh_voxels.h"
 #include "base/require.h"
-#include "base/tet_geometry.h"
 #include "lattice/clean_topology.h"
+#include "lattice/cover.h"
 #include "lattice/gather_candidates.h"
+#include "lattice/passed_voxels.h"
+#include "lattice/separate.h"
+#include "lattice/thin_parts.h"
 
 namespace tetsoup {
 namespace {
@@ -64,16 +68,11 @@ double core_share(const BitGrid& inside, StageWatch& watch) {
   return counts.all == 0 ? 0 : static_cast<double>(counts.core) / static_cast<double>(counts.all);
 }
 
-double volume_of(const TetMesh& mesh, const Tet& t) {
-  return signed_volume(to_double(mesh.vertices[t[0]]), to_double(mesh.vertices[t[1]]), to_double(mesh.vertices[t[2]]),
-                       to_double(mesh.vertices[t[3]]));
-}
-
 }  // namespace
 
 std::size_t Fill::kept_tets() const {
-  return candidates.kept.size() -
-         static_cast<std::size_t>(std::count(candidates.kept.begin(), candidates.kept.end(), std::uint8_t{0}));
+  return static_cast<std::size_t>(
+      std::count_if(candidates.kept.begin(), candidates.kept.end(), [](std::uint8_t kept) { return kept != 0; }));
 }
 
 std::size_t Fill::kept_vertices() const {
@@ -94,12 +93,18 @@ Filler::Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeO
       inside_(volume.inside, watch) {
   has_volume_ = volume.report.inside_voxels > 0 && volume.report.soup_covered >= kLeastCovered &&
                 core_share(volume.inside, watch) >= kLeastCore;
+  const bool covers_soup =
+      options.cover == Cover::Enclose || (options.thin == Thin::Keep && options.cover != Cover::Inside);
+  if (has_volume_ && covers_soup) {
+    passed_ = passed_voxels(volume.inside, soup, watch);
+    passed_blocks_.emplace(*passed_, watch);
+  }
 }
 
 Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
   check_cell(pose.cell_size);
   const double overhang = static_cast<double>(table_.reach) / kStepsPerCell - 1;
-  Fill fill{pose, make_lattice_frame(grid_, pose, overhang), {}, false, false, 0, {}};
+  Fill fill{pose, make_lattice_frame(grid_, pose, overhang), {}, false, false, 0, 0, {}};
   ++fills_;
   FilledCells filled = find_densities(inside_, fill.frame, table_, options_.rho_min, watch_);
   fill.crumbs = !has_volume_ || !holds_together(filled, table_);
@@ -108,6 +113,9 @@ Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
     fill.by_soup = true;
     fill.crumbs = false;
   }
+  if (!fill.by_soup && !fill.crumbs && passed_)
+    add_passed(find_densities(*passed_blocks_, fill.frame, table_, options_.rho_min, watch_), table_.tet_count, filled);
+  fill.dense_tets = filled.kept_tets;
   fill.sampled_tets = filled.sampled_tets;
   fill.candidates = gather_candidates(filled, fill.frame, table_);
   if (!fill.crumbs) mend(fill);
@@ -117,22 +125,23 @@ Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
 /// Mends what density leaves, step by step; each changes which candidates are kept, or the candidates, and notes in
 /// `fill.mended` what it did.
 void Filler::mend(Fill& fill) {
-  // cover:          options_.thin, options_.cover
-  // separate:       options_.separate
-  fill.mended.topology = clean_topology(fill.candidates, options_.topology, watch_);
+  Candidates& candidates = fill.candidates;
+  LatticeReport& report = fill.mended;
+  if (options_.cover == Cover::Inside && !fill.by_soup) keep_inside_tets(candidates);
+  if (options_.thin == Thin::Keep && !candidates.passed.empty())
+    report.thin_tets = keep_thin_parts(candidates, volume_.inside, *passed_, watch_);
+  if (options_.cover == Cover::Enclose)
+    report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
+  if (options_.separate == Separate::Apart && !fill.by_soup)
+    report.doubled_tets = separate(candidates, volume_.inside, options_.rho_min, watch_);
+  report.topology = clean_topology(candidates, options_.topology, watch_);
 }
 
-Shares Filler::shares(const Fill& fill) const {
-  Shares shares;
-  const Candidates& c = fill.candidates;
-  for (std::size_t t = 0; t < c.kept.size(); ++t) {
-    if (c.kept[t] == 0) continue;
-    const double volume = volume_of(c.mesh, c.mesh.tets[t]), density = static_cast<double>(c.density[t]);
-    shares.both += density * volume;
-    shares.only_mesh += (1 - density) * volume;
-  }
-  shares.only_volume = std::max(0.0, volume_.report.volume - shares.both);
-  return shares;
+Shares Filler::shares(const TetMesh& mesh) const {
+  const MeshVoxels voxels = count_mesh_voxels(mesh, volume_.inside, watch_);
+  const auto volume = [&](std::size_t count) { return static_cast<double>(count) * std::pow(grid_.voxel_size, 3); };
+  return {volume(voxels.in_both), volume(voxels.in_mesh - voxels.in_both),
+          volume(volume_.report.inside_voxels - voxels.in_both)};
 }
 
 double Filler::longest_edge() const {

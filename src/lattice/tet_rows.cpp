@@ -4,11 +4,17 @@
 #include <numeric>
 
 #include "base/bits.h"
+#include "base/whole.h"
 
 namespace tetsoup {
 namespace {
 
 constexpr std::int64_t kOne = std::int64_t{1} << 40;  ///< A cell. Shifts of 1e6 cells then leave room for the sums.
+
+/// Below that a row is parallel to a face: it may cross it anywhere, and whole numbers find out. Above, the quotient
+/// that tells where is exact to kUnsure: sums are below 2^57, so that 2^4 is lost of them.
+constexpr std::int64_t kParallel = 256;
+constexpr double kUnsure = 0.25;  ///< Voxels.
 
 std::int64_t to_fixed(double cells) {
   return std::llround(cells * static_cast<double>(kOne));
@@ -43,55 +49,57 @@ TetRows::TetRows(const InsideBlocks& inside, const LatticeFrame& frame, const La
 }
 
 TetRows::HalfSpaces TetRows::half_spaces(const LatticeTet& tet, const LatticeTable& table) const {
-  HalfSpaces all;
+  HalfSpaces halves;
   for (std::size_t i = 0; i < 4; ++i) {
     const auto corner = [&](std::size_t k) { return table.steps(tet[static_cast<std::size_t>(kTetFaces[i][k])]); };
-    HalfSpace& half = all[i];
-    half.normal = face_normal(corner(0), corner(2), corner(1));  // inwards
+    const auto n = face_normal(corner(0), corner(2), corner(1));  // inwards
     const Steps on_face = corner(0);
-    half.offset = -dot(half.normal, {on_face[0], on_face[1], on_face[2]}) * (kOne / kStepsPerCell);
-    const auto first_member = half.normal[0] != 0   ? half.normal[0]
-                              : half.normal[1] != 0 ? half.normal[1]
-                                                    : half.normal[2];
-    if (first_member < 0) half.offset -= 1;  // a point on the face belongs to the other side
-    for (std::size_t axis = 0; axis < 3; ++axis) half.step[axis] = dot(half.normal, step_[axis]);
-    half.inverse = half.step[0] == 0 ? 0 : 1 / static_cast<double>(half.step[0]);
+    halves.normal[i] = n;
+    halves.offset[i] = -dot(n, {on_face[0], on_face[1], on_face[2]}) * (kOne / kStepsPerCell);
+    const std::int64_t first_member = n[0] != 0 ? n[0] : n[1] != 0 ? n[1] : n[2];
+    if (first_member < 0) halves.offset[i] -= 1;  // a point on the face belongs to the other side
+    for (std::size_t axis = 0; axis < 3; ++axis) halves.step[axis][i] = dot(n, step_[axis]);
+    const std::int64_t along_row = halves.step[0][i];
+    halves.inverse[i] = std::abs(along_row) < kParallel ? 0 : 1 / static_cast<double>(along_row);
   }
-  return all;
+  return halves;
 }
 
-/// To the voxels in the half space; `at_zero` is the sum at voxel 0 of the row.
-bool TetRows::narrow(const HalfSpace& half, std::int64_t at_zero, Run& run) {
-  const std::int64_t step = half.step[0];
-  if (step == 0) return at_zero >= 0;
-  // The first voxel beyond the crossing, but for the rounding of the quotient.
-  const double way = -static_cast<double>(at_zero) * half.inverse;
-  int beyond = static_cast<int>(std::min(std::max(way, run.begin - 1.0), run.end + 1.0));
-  const auto holds = [&](int x) { return (at_zero + step * x >= 0) == (step > 0); };  // beyond is where this starts
-  while (beyond > run.begin && holds(beyond - 1)) --beyond;
-  while (beyond < run.end && !holds(beyond)) ++beyond;
-  if (step > 0) {
-    run.begin = std::max(run.begin, beyond);
-  } else {
-    run.end = std::min(run.end, beyond);
+/// The voxels of a row that lie in all half spaces; `at_zero` are the sums at its voxel 0. Floating point tells to a
+/// fraction of a voxel where the row gets in and out, whole numbers decide.
+TetRows::Run TetRows::narrowed(const HalfSpaces& halves, const Sums& at_zero, const Run& run) {
+  double in = run.begin, out = run.end - 1;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double inverse = halves.inverse[i], crossing = -static_cast<double>(at_zero[i]) * inverse;
+    in = std::max(in, inverse > 0 ? crossing : in);
+    out = std::min(out, inverse < 0 ? crossing : out);
   }
-  return run.begin < run.end;
+  if (in - out > kUnsure) return {0, 0};
+  const auto holds = [&](int x) {
+    bool all = true;
+    for (std::size_t i = 0; i < 4; ++i) all = all && at_zero[i] + halves.step[0][i] * x >= 0;
+    return all;
+  };
+  int first = std::max(run.begin, ceil_to_int(in - kUnsure)), last = std::min(run.end - 1, floor_to_int(out + kUnsure));
+  while (first <= last && !holds(first)) ++first;
+  while (first <= last && !holds(last)) --last;
+  return {first, last + 1};
 }
 
 VoxelCount TetRows::count(const Cell& cell, std::size_t tet, const VoxelRange& range) const {
   Fixed at = first_;  // of voxel (0, 0, 0), relative to the cell
   for (std::size_t i = 0; i < 3; ++i) at[i] -= cell[i] * kOne;
   const HalfSpaces& halves = half_spaces_[is_odd(cell)][tet];
-  std::array<std::int64_t, 4> at_origin{};
-  for (std::size_t i = 0; i < 4; ++i) at_origin[i] = dot(halves[i].normal, at) + halves[i].offset;
   VoxelCount count;
   for (int z = range.begin[2]; z < range.end[2]; ++z) {
+    Sums at_zero;
+    for (std::size_t i = 0; i < 4; ++i)
+      at_zero[i] =
+          dot(halves.normal[i], at) + halves.offset[i] + halves.step[1][i] * range.begin[1] + halves.step[2][i] * z;
     for (int y = range.begin[1]; y < range.end[1]; ++y) {
-      Run run{range.begin[0], range.end[0]};
-      bool any = true;
-      for (std::size_t i = 0; i < 4 && any; ++i)
-        any = narrow(halves[i], at_origin[i] + halves[i].step[1] * y + halves[i].step[2] * z, run);
-      if (!any) continue;
+      const Run run = narrowed(halves, at_zero, {range.begin[0], range.end[0]});
+      for (std::size_t i = 0; i < 4; ++i) at_zero[i] += halves.step[1][i];
+      if (run.begin >= run.end) continue;
       count.total += static_cast<std::size_t>(run.end - run.begin);
       count.inside += count_inside(run, y, z);
     }

@@ -27,20 +27,20 @@ class TetRows {
  private:
   using Fixed = std::array<std::int64_t, 3>;  ///< In cells / 2^40.
 
-  /// Of a point relative to the cell: dot(normal, point) + offset >= 0.
-  struct HalfSpace {
-    std::array<std::int64_t, 3> normal{};
-    std::int64_t offset = 0;
-    std::array<std::int64_t, 3> step{};  ///< Change of the sum from voxel to voxel along x, y, z,
-    double inverse = 0;                  ///< and one over that along x.
+  /// Of points relative to the cell: dot(normal, point) + offset >= 0, one for each face.
+  struct HalfSpaces {
+    std::array<std::array<std::int64_t, 3>, 4> normal{};
+    std::array<std::int64_t, 4> offset{};
+    std::array<std::array<std::int64_t, 4>, 3> step{};  ///< Change of the sums from voxel to voxel along x, y, z,
+    std::array<double, 4> inverse{};                    ///< and one over that along x, or zero.
   };
-  using HalfSpaces = std::array<HalfSpace, 4>;
+  using Sums = std::array<std::int64_t, 4>;
   struct Run {
     int begin, end;
   };
 
   HalfSpaces half_spaces(const LatticeTet& tet, const LatticeTable& table) const;
-  static bool narrow(const HalfSpace& half, std::int64_t at_zero, Run& run);
+  static Run narrowed(const HalfSpaces& halves, const Sums& at_zero, const Run& run);
   std::size_t count_inside(const Run& run, int y, int z) const;
 
   const InsideBlocks& inside_;
