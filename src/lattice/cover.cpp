@@ -21,9 +21,8 @@ std::uint32_t holder_of(const Candidates& candidates, const TetLocator& locator,
   return best;
 }
 
-}  // namespace
-
-std::size_t keep_enclosing_tets(Candidates& candidates, std::span<const Vec3> points, StageWatch& watch) {
+/// Of every point, as holder_of().
+std::vector<std::uint32_t> holders_of(const Candidates& candidates, std::span<const Vec3> points, StageWatch& watch) {
   constexpr std::int64_t kGrain = 1024;  // points
   const TetLocator locator(candidates.mesh);
   std::vector<std::uint32_t> tets(points.size(), kNone);
@@ -31,13 +30,38 @@ std::size_t keep_enclosing_tets(Candidates& candidates, std::span<const Vec3> po
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
       tets[i] = holder_of(candidates, locator, to_double(points[i]));
   });
+  std::erase(tets, kNone);
+  return tets;
+}
+
+}  // namespace
+
+std::size_t keep_enclosing_tets(Candidates& candidates, std::span<const Vec3> points, StageWatch& watch) {
   std::size_t count = 0;
-  for (const std::uint32_t t : tets) {
-    if (t == kNone) continue;
+  for (const std::uint32_t t : holders_of(candidates, points, watch)) {
     count += candidates.kept[t] == 0;
     candidates.kept[t] = kHeld;
   }
   return count;
+}
+
+std::size_t enclose_apart(Candidates& candidates, std::span<const Vec3> points, StageWatch& watch) {
+  std::vector<std::uint32_t> tets = holders_of(candidates, points, watch);
+  std::erase_if(tets, [&](std::uint32_t t) { return candidates.kept[t] != 0; });
+  std::sort(tets.begin(), tets.end());
+  tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
+  TetMesh& mesh = candidates.mesh;
+  for (const std::uint32_t t : tets) {
+    Tet copy = mesh.tets[t];
+    for (std::uint32_t& v : copy) {
+      mesh.vertices.push_back(Vec3(mesh.vertices[v]));
+      v = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+    }
+    mesh.tets.push_back(copy);
+    candidates.density.push_back(candidates.density[t]);
+    candidates.kept.push_back(kHeld);
+  }
+  return tets.size();
 }
 
 void keep_inside_tets(Candidates& candidates) {

@@ -134,7 +134,10 @@ void Filler::mend(Fill& fill) {
     report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
   if (options_.separate == Separate::Apart && !fill.by_soup)
     report.doubled_tets = separate(candidates, volume_.inside, options_.rho_min, watch_);
-  report.topology = clean_topology(candidates, options_.topology, watch_);
+  TopologyOptions topology = options_.topology;
+  if (options_.cover == Cover::Enclose) topology.min_part = 0;  // or what was enclosed would be dropped
+  report.topology = clean_topology(candidates, topology, watch_);
+  if (options_.cover == Cover::Enclose) report.enclosing_tets += enclose_apart(candidates, soup_.soup.vertices, watch_);
 }
 
 Shares Filler::shares(const TetMesh& mesh) const {
