@@ -263,11 +263,13 @@ TEST(CleanTopology, crumbs_go_and_what_is_large_enough_stays) {
   Candidates c = block_candidates({9, 4, 3});
   keep_inside(c, [](const Vec3d& p) { return p.x < 3 || (p.x > 5 && p.x < 6 && p.y < 1 && p.z < 1); });
   const double whole = quality_of(c).volume;  // 36 cells and one
-  Candidates kept = c;
+  Candidates kept = c, held = c;
   TopologyOptions options = nothing();
   options.min_part = 0.9 / 37;
   EXPECT_TRUE(did_nothing(clean(kept, options)));
   options.min_part = 1.1 / 37;
+  for (std::uint8_t& k : held.kept) k = k != 0 ? kHeld : 0;
+  EXPECT_TRUE(did_nothing(clean(held, options))) << "what is held stays, however small";
   const TopologyReport r = clean(c, options);
   EXPECT_EQ(r.parts_dropped, 1U);
   EXPECT_NEAR(r.dropped_volume, 1, 1e-6);

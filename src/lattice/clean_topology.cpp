@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostRounds = 8;  ///< Of filling bubbles and mending before mending may add no more tets.
 
-/// Components, joined through faces, below `min_part` of the volume; the largest stays.
+/// Components, joined through faces, below `min_part` of the volume; the largest stays, and those with a held tet.
 void drop_parts(TetComplex& complex, double min_part, TopologyReport& report) {
   Unions parts(complex.tet_count());
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
@@ -22,15 +22,20 @@ void drop_parts(TetComplex& complex, double min_part, TopologyReport& report) {
       if (const std::uint32_t n = complex.neighbour(t, i); n < t && complex.is_kept(n)) parts.join(n, t);
   }
   std::vector<double> volume(complex.tet_count(), 0);  // by the part's first tet
+  std::vector<std::uint8_t> is_held(complex.tet_count(), 0);
   double whole = 0;
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
     if (!complex.is_kept(t)) continue;
     const double v = complex.volume(t);
-    volume[parts.find(t)] += v;
+    const std::size_t part = parts.find(t);
+    volume[part] += v;
+    if (complex.is_held(t)) is_held[part] = 1;
     whole += v;
   }
   const auto largest = static_cast<std::size_t>(std::max_element(volume.begin(), volume.end()) - volume.begin());
-  const auto is_small = [&](std::size_t part) { return part != largest && volume[part] < min_part * whole; };
+  const auto is_small = [&](std::size_t part) {
+    return part != largest && !is_held[part] && volume[part] < min_part * whole;
+  };
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
     if (!complex.is_kept(t) || !is_small(parts.find(t))) continue;
     if (parts.find(t) == t) {
