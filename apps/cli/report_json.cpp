@@ -137,6 +137,7 @@ Json lattice_json(const LatticeReport& report) {
           {"thin_tets", report.thin_tets},
           {"enclosing_tets", report.enclosing_tets},
           {"doubled_tets", report.doubled_tets},
+          {"parted_vertices", report.parted_vertices},
           {"excess_volume", report.excess_volume},
           {"lacking_volume", report.lacking_volume},
           {"topology", topology_json(report.topology)}};

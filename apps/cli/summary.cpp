@@ -64,6 +64,7 @@ std::string describe_care(const LatticeReport& lattice) {
   say(lattice.thin_tets, "tet", "kept for thin parts");
   say(lattice.enclosing_tets, "tet", "added to enclose every vertex");
   say(lattice.doubled_tets, "tet", "doubled to keep apart what does not touch");
+  say(lattice.parted_vertices, "vertex", "doubled to keep apart what does not touch");
   say(topology.bubbles_filled, "bubble", "filled");
   say(topology.parts_dropped, "crumb", "dropped (--min-part 0 keeps them)");
   say(topology.touching_mended, "place", "mended where tets merely touched");
