@@ -69,6 +69,20 @@ class BitRows {
     }
     return middle | middle << 1 | middle >> 1 | below >> 63 | above << 63;
   }
+  /// Bits of word `w` of a row whose 27 neighbours are all set; beyond the grid none is.
+  std::uint64_t shrunk(int y, int z, std::size_t w) const {
+    std::uint64_t middle = ~std::uint64_t{0}, below = middle, above = middle;  // what all of the nine rows hold
+    for (int dz = -1; dz <= 1; ++dz) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        const std::uint64_t* row = at(y + dy, z + dz);
+        if (row == nullptr) return 0;
+        middle &= row[w];
+        below &= w > 0 ? row[w - 1] : 0;
+        above &= w + 1 < bits_.words_per_row ? row[w + 1] : 0;
+      }
+    }
+    return middle & (middle << 1 | below >> 63) & (middle >> 1 | above << 63);
+  }
 
  private:
   const BitGrid& bits_;

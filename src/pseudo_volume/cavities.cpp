@@ -1,9 +1,12 @@
 #include "pseudo_volume/cavities.h"
 
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/bits.h"
+#include "pseudo_volume/unpadded.h"
 
 namespace tetsoup {
 namespace {
@@ -104,37 +107,49 @@ class Flood {
   std::size_t words_, rows_y_, rows_;
 };
 
-}  // namespace
+/// Chunks of rows of words: calls body(word, index of the word in its row).
+template <class Body>
+void for_words(const BitGrid& grid, std::int64_t begin, std::int64_t end, const Body& body) {
+  const std::size_t words = grid.words_per_row;
+  for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row)
+    for (std::size_t w = 0; w < words; ++w) body(row * words + w, w);
+}
 
-std::size_t fill_cavities(BitGrid& inside, const BitGrid& near_soup, StageWatch& watch) {
-  const std::size_t words = inside.words_per_row;
-  const auto ny = static_cast<std::int64_t>(inside.frame.size[1]);
-  const std::int64_t rows = ny * inside.frame.size[2];
-  const auto for_words = [&](std::int64_t begin, std::int64_t end, const auto& body) {
-    for (std::size_t i = static_cast<std::size_t>(begin) * words; i < static_cast<std::size_t>(end) * words; ++i)
-      body(i);
-  };
+std::int64_t row_count(const BitGrid& grid) {
+  return static_cast<std::int64_t>(grid.frame.size[1]) * grid.frame.size[2];
+}
+
+/// The outside voxels that no barrier holds.
+template <class Barrier>
+BitGrid free_of(const BitGrid& inside, StageWatch& watch, const Barrier& barrier) {
   BitGrid free = make_bit_grid(inside.frame);
-  parallel_for(rows, kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
-    for_words(begin, end, [&](std::size_t i) {
-      free.words[i] = ~inside.words[i] & ~near_soup.words[i] & row_mask(inside.frame.size[0], i % words);
+  parallel_for(row_count(free), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
+    for_words(free, begin, end, [&](std::size_t i, std::size_t w) {
+      free.words[i] = ~inside.words[i] & ~barrier(i, w) & row_mask(free.frame.size[0], w);
     });
   });
-  const BitGrid reached = Flood(free).run(watch);
+  return free;
+}
 
-  BitGrid& cavity = free;
-  std::vector<char> has_cavity(static_cast<std::size_t>(rows));
-  auto added = parallel_sum<std::size_t>(rows, kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
+/// Keeps of `free` what the flood has not reached. Returns how much, and marks the rows that hold any.
+std::size_t keep_unreached(BitGrid& free, const BitGrid& reached, std::vector<char>& rows_with_any, StageWatch& watch) {
+  rows_with_any.assign(static_cast<std::size_t>(row_count(free)), 0);
+  return parallel_sum<std::size_t>(row_count(free), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     std::size_t count = 0;
-    for_words(begin, end, [&](std::size_t i) {
-      cavity.words[i] &= ~reached.words[i];
-      if (cavity.words[i] == 0) return;
-      count += bit_count(cavity.words[i]);
-      has_cavity[i / words] = 1;
+    for_words(free, begin, end, [&](std::size_t i, std::size_t) {
+      free.words[i] &= ~reached.words[i];
+      if (free.words[i] == 0) return;
+      count += bit_count(free.words[i]);
+      rows_with_any[i / free.words_per_row] = 1;
     });
     return count;
   });
-  if (added == 0) return 0;
+}
+
+/// Adds cavities to the inside, and the sealed voxels between the two. Returns how many voxels the latter are.
+std::size_t add_with_crust(BitGrid& inside, const BitGrid& cavity, const std::vector<char>& has_cavity,
+                           const BitGrid& reached, const BitGrid& sealed, StageWatch& watch) {
+  const auto ny = static_cast<std::int64_t>(inside.frame.size[1]);
   const BitRows cavities(cavity), outside(reached);
   const auto is_beside_cavity = [&](int y, int z) {
     for (int dz = -1; dz <= 1; ++dz)
@@ -142,22 +157,75 @@ std::size_t fill_cavities(BitGrid& inside, const BitGrid& near_soup, StageWatch&
         if (cavities.at(y + dy, z + dz) && has_cavity[static_cast<std::size_t>((z + dz) * ny + y + dy)]) return true;
     return false;
   };
-  added += parallel_sum<std::size_t>(rows, kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
+  return parallel_sum<std::size_t>(row_count(inside), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     std::size_t count = 0;
     for (std::int64_t row = begin; row < end; ++row) {
       const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
       if (!is_beside_cavity(y, z)) continue;
-      for_words(row, row + 1, [&](std::size_t i) {
-        const std::uint64_t around = cavities.grown(y, z, i % words);
+      for_words(inside, row, row + 1, [&](std::size_t i, std::size_t w) {
+        const std::uint64_t around = cavities.grown(y, z, w);
         if (around == 0) return;
-        const std::uint64_t crust = around & ~outside.grown(y, z, i % words) & near_soup.words[i] & ~inside.words[i];
+        const std::uint64_t crust = around & ~outside.grown(y, z, w) & sealed.words[i] & ~inside.words[i];
         count += bit_count(crust);
         inside.words[i] |= cavity.words[i] | crust;
       });
     }
     return count;
   });
-  return added;
+}
+
+/// One step through faces: what touches `from` within `free`, but for what is `taken`.
+void seep(BitGrid& from, const BitGrid& free, const BitGrid& taken, StageWatch& watch) {
+  const BitGrid before = from;
+  const BitRows rows(before);
+  const std::size_t words = from.words_per_row;
+  const auto ny = static_cast<std::int64_t>(from.frame.size[1]);
+  parallel_for(row_count(from), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
+    for_words(from, begin, end, [&](std::size_t i, std::size_t w) {
+      const std::uint64_t open = free.words[i] & ~before.words[i] & ~taken.words[i];
+      if (open == 0) return;
+      const auto row = static_cast<std::int64_t>(i / words);
+      const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
+      const std::uint64_t* here = rows.at(y, z);
+      std::uint64_t around = shifted_up(here, w) | shifted_down(here, w, words);
+      for (const std::uint64_t* beside : {rows.at(y - 1, z), rows.at(y + 1, z), rows.at(y, z - 1), rows.at(y, z + 1)})
+        if (beside != nullptr) around |= beside[w];
+      from.words[i] |= open & around;
+    });
+  });
+}
+
+}  // namespace
+
+std::size_t fill_cavities(BitGrid& inside, const BitGrid& sealed, StageWatch& watch) {
+  BitGrid cavity = free_of(inside, watch, [&](std::size_t i, std::size_t) { return sealed.words[i]; });
+  const BitGrid reached = Flood(cavity).run(watch);
+  std::vector<char> has_cavity;
+  const std::size_t added = keep_unreached(cavity, reached, has_cavity, watch);
+  return added == 0 ? 0 : added + add_with_crust(inside, cavity, has_cavity, reached, sealed, watch);
+}
+
+std::size_t fill_rooms(BitGrid& inside, const BitGrid& sealed, const BitGrid& band, double band_voxels,
+                       StageWatch& watch) {
+  const auto ny = static_cast<std::size_t>(inside.frame.size[1]);
+  const Unpadded unpadded(inside.frame);
+  BitGrid rooms = free_of(inside, watch, [&](std::size_t i, std::size_t w) {
+    const std::size_t row = i / inside.words_per_row;
+    return band.words[i] & unpadded.at(w, static_cast<int>(row % ny), static_cast<int>(row / ny));
+  });
+  BitGrid reached = Flood(rooms).run(watch);
+  std::vector<char> has_room;
+  if (keep_unreached(rooms, reached, has_room, watch) == 0) return 0;
+
+  // Both take the space in the band from their sides, up to the soup: as many steps as a diagonal through it has.
+  const BitGrid free = free_of(inside, watch, [&](std::size_t i, std::size_t) { return sealed.words[i]; });
+  const int steps = static_cast<int>(std::ceil(std::numbers::sqrt3 * band_voxels));
+  for (int step = 0; step < steps; ++step) {
+    seep(reached, free, rooms, watch);
+    seep(rooms, free, reached, watch);
+  }
+  const std::size_t added = keep_unreached(rooms, reached, has_room, watch);
+  return added + add_with_crust(inside, rooms, has_room, reached, sealed, watch);
 }
 
 }  // namespace tetsoup
