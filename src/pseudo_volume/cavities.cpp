@@ -41,17 +41,19 @@ class Flood {
 
   BitGrid run(StageWatch& watch) {
     seed_border();
-    // Up and down the whole grid once reaches nearly all; what is left lies round corners.
+    // Up and down the whole grid once reaches nearly all; what is left lies round corners. On the way down a row misses
+    // only what rows below it do later.
     for (std::size_t row = 0; row < rows_; ++row) {
       visit(row);
       if (row % 4096 == 0) watch.step(0);
     }
+    std::vector<std::size_t> pending;
     for (std::size_t row = rows_; row-- > 0;) {
-      visit(row);
+      if (visit(row))
+        for (const std::size_t other : rows_beside(row))
+          if (other > row) pending.push_back(other);
       if (row % 4096 == 0) watch.step(0);
     }
-    std::vector<std::size_t> pending;
-    for (std::size_t row = 0; row < rows_; ++row) pending.push_back(row);
     for (std::size_t steps = 0; !pending.empty(); ++steps) {
       const std::size_t row = pending.back();
       pending.pop_back();
@@ -107,12 +109,21 @@ class Flood {
   std::size_t words_, rows_y_, rows_;
 };
 
-/// Chunks of rows of words: calls body(word, index of the word in its row).
+/// One word of a row: its place in the grid's words, and where that is.
+struct Place {
+  std::size_t i = 0, w = 0;
+  int y = 0, z = 0;
+};
+
+/// Calls body(place) for all words of rows begin to end - 1.
 template <class Body>
 void for_words(const BitGrid& grid, std::int64_t begin, std::int64_t end, const Body& body) {
-  const std::size_t words = grid.words_per_row;
-  for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row)
-    for (std::size_t w = 0; w < words; ++w) body(row * words + w, w);
+  Place at{static_cast<std::size_t>(begin) * grid.words_per_row, 0, static_cast<int>(begin % grid.frame.size[1]),
+           static_cast<int>(begin / grid.frame.size[1])};
+  for (std::int64_t row = begin; row < end; ++row) {
+    for (at.w = 0; at.w < grid.words_per_row; ++at.w, ++at.i) body(at);
+    if (++at.y == grid.frame.size[1]) at.y = 0, ++at.z;
+  }
 }
 
 std::int64_t row_count(const BitGrid& grid) {
@@ -124,8 +135,8 @@ template <class Barrier>
 BitGrid free_of(const BitGrid& inside, StageWatch& watch, const Barrier& barrier) {
   BitGrid free = make_bit_grid(inside.frame);
   parallel_for(row_count(free), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
-    for_words(free, begin, end, [&](std::size_t i, std::size_t w) {
-      free.words[i] = ~inside.words[i] & ~barrier(i, w) & row_mask(free.frame.size[0], w);
+    for_words(free, begin, end, [&](const Place& at) {
+      free.words[at.i] = ~inside.words[at.i] & ~barrier(at) & row_mask(free.frame.size[0], at.w);
     });
   });
   return free;
@@ -136,11 +147,11 @@ std::size_t keep_unreached(BitGrid& free, const BitGrid& reached, std::vector<ch
   rows_with_any.assign(static_cast<std::size_t>(row_count(free)), 0);
   return parallel_sum<std::size_t>(row_count(free), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     std::size_t count = 0;
-    for_words(free, begin, end, [&](std::size_t i, std::size_t) {
-      free.words[i] &= ~reached.words[i];
-      if (free.words[i] == 0) return;
-      count += bit_count(free.words[i]);
-      rows_with_any[i / free.words_per_row] = 1;
+    for_words(free, begin, end, [&](const Place& at) {
+      free.words[at.i] &= ~reached.words[at.i];
+      if (free.words[at.i] == 0) return;
+      count += bit_count(free.words[at.i]);
+      rows_with_any[at.i / free.words_per_row] = 1;
     });
     return count;
   });
@@ -162,12 +173,12 @@ std::size_t add_with_crust(BitGrid& inside, const BitGrid& cavity, const std::ve
     for (std::int64_t row = begin; row < end; ++row) {
       const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
       if (!is_beside_cavity(y, z)) continue;
-      for_words(inside, row, row + 1, [&](std::size_t i, std::size_t w) {
-        const std::uint64_t around = cavities.grown(y, z, w);
+      for_words(inside, row, row + 1, [&](const Place& at) {
+        const std::uint64_t around = cavities.grown(y, z, at.w);
         if (around == 0) return;
-        const std::uint64_t crust = around & ~outside.grown(y, z, w) & sealed.words[i] & ~inside.words[i];
+        const std::uint64_t crust = around & ~outside.grown(y, z, at.w) & sealed.words[at.i] & ~inside.words[at.i];
         count += bit_count(crust);
-        inside.words[i] |= cavity.words[i] | crust;
+        inside.words[at.i] |= cavity.words[at.i] | crust;
       });
     }
     return count;
@@ -179,18 +190,16 @@ void seep(BitGrid& from, const BitGrid& free, const BitGrid& taken, StageWatch& 
   const BitGrid before = from;
   const BitRows rows(before);
   const std::size_t words = from.words_per_row;
-  const auto ny = static_cast<std::int64_t>(from.frame.size[1]);
   parallel_for(row_count(from), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
-    for_words(from, begin, end, [&](std::size_t i, std::size_t w) {
-      const std::uint64_t open = free.words[i] & ~before.words[i] & ~taken.words[i];
+    for_words(from, begin, end, [&](const Place& at) {
+      const std::uint64_t open = free.words[at.i] & ~before.words[at.i] & ~taken.words[at.i];
       if (open == 0) return;
-      const auto row = static_cast<std::int64_t>(i / words);
-      const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
-      const std::uint64_t* here = rows.at(y, z);
-      std::uint64_t around = shifted_up(here, w) | shifted_down(here, w, words);
-      for (const std::uint64_t* beside : {rows.at(y - 1, z), rows.at(y + 1, z), rows.at(y, z - 1), rows.at(y, z + 1)})
-        if (beside != nullptr) around |= beside[w];
-      from.words[i] |= open & around;
+      const std::uint64_t* here = rows.at(at.y, at.z);
+      std::uint64_t around = shifted_up(here, at.w) | shifted_down(here, at.w, words);
+      for (const std::uint64_t* beside :
+           {rows.at(at.y - 1, at.z), rows.at(at.y + 1, at.z), rows.at(at.y, at.z - 1), rows.at(at.y, at.z + 1)})
+        if (beside != nullptr) around |= beside[at.w];
+      from.words[at.i] |= open & around;
     });
   });
 }
@@ -198,7 +207,7 @@ void seep(BitGrid& from, const BitGrid& free, const BitGrid& taken, StageWatch& 
 }  // namespace
 
 std::size_t fill_cavities(BitGrid& inside, const BitGrid& sealed, StageWatch& watch) {
-  BitGrid cavity = free_of(inside, watch, [&](std::size_t i, std::size_t) { return sealed.words[i]; });
+  BitGrid cavity = free_of(inside, watch, [&](const Place& at) { return sealed.words[at.i]; });
   const BitGrid reached = Flood(cavity).run(watch);
   std::vector<char> has_cavity;
   const std::size_t added = keep_unreached(cavity, reached, has_cavity, watch);
@@ -207,18 +216,15 @@ std::size_t fill_cavities(BitGrid& inside, const BitGrid& sealed, StageWatch& wa
 
 std::size_t fill_rooms(BitGrid& inside, const BitGrid& sealed, const BitGrid& band, double band_voxels,
                        StageWatch& watch) {
-  const auto ny = static_cast<std::size_t>(inside.frame.size[1]);
   const Unpadded unpadded(inside.frame);
-  BitGrid rooms = free_of(inside, watch, [&](std::size_t i, std::size_t w) {
-    const std::size_t row = i / inside.words_per_row;
-    return band.words[i] & unpadded.at(w, static_cast<int>(row % ny), static_cast<int>(row / ny));
-  });
+  BitGrid rooms =
+      free_of(inside, watch, [&](const Place& at) { return band.words[at.i] & unpadded.at(at.w, at.y, at.z); });
   BitGrid reached = Flood(rooms).run(watch);
   std::vector<char> has_room;
   if (keep_unreached(rooms, reached, has_room, watch) == 0) return 0;
 
   // Both take the space in the band from their sides, up to the soup: as many steps as a diagonal through it has.
-  const BitGrid free = free_of(inside, watch, [&](std::size_t i, std::size_t) { return sealed.words[i]; });
+  const BitGrid free = free_of(inside, watch, [&](const Place& at) { return sealed.words[at.i]; });
   const int steps = static_cast<int>(std::ceil(std::numbers::sqrt3 * band_voxels));
   for (int step = 0; step < steps; ++step) {
     seep(reached, free, rooms, watch);

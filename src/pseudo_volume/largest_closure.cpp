@@ -29,15 +29,15 @@ struct FarFaces {
 FarFaces find_far_faces(const BitGrid& inside, const BlockGrid& distance, const BitGrid& sealed, StageWatch& watch) {
   const BitRows in(inside), near(sealed);
   const std::size_t words = inside.words_per_row;
-  const auto [nx, ny, nz] = inside.frame.size;
+  const std::array<int, 3>& size = inside.frame.size;
   const auto rows_at_once = [&](std::int64_t begin, std::int64_t end) {
     FarFaces found;
     for (std::int64_t row = begin; row < end; ++row) {
-      const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
+      const int y = static_cast<int>(row % size[1]), z = static_cast<int>(row / size[1]);
       const auto note = [&](std::size_t w, std::uint64_t far, const Voxel& step) {
         for (; far != 0; far &= far - 1) {
           const int x = static_cast<int>(64 * w) + std::countr_zero(far);
-          if (x + step[0] >= nx) return;
+          if (x + step[0] >= size[0]) return;
           const float d = std::min(distance.at(x, y, z), distance.at(x + step[0], y + step[1], z + step[2]));
           if (d < std::numeric_limits<float>::infinity())
             found.farthest = std::max(found.farthest, d);
@@ -46,16 +46,20 @@ FarFaces find_far_faces(const BitGrid& inside, const BlockGrid& distance, const 
         }
       };
       const std::uint64_t *i0 = in.at(y, z), *iy = in.at(y + 1, z), *iz = in.at(y, z + 1);
-      const std::uint64_t *n0 = near.at(y, z), *n_y = near.at(y + 1, z), *n_z = near.at(y, z + 1);
+      const std::uint64_t *n0 = near.at(y, z), *ny = near.at(y + 1, z), *nz = near.at(y, z + 1);
       for (std::size_t w = 0; w < words; ++w) {
-        note(w, (i0[w] ^ shifted_down(i0, w, words)) & ~n0[w] & ~shifted_down(n0, w, words), {1, 0, 0});
-        if (iy != nullptr) note(w, (i0[w] ^ iy[w]) & ~n0[w] & ~n_y[w], {0, 1, 0});
-        if (iz != nullptr) note(w, (i0[w] ^ iz[w]) & ~n0[w] & ~n_z[w], {0, 0, 1});
+        const std::uint64_t far_x = (i0[w] ^ shifted_down(i0, w, words)) & ~n0[w] & ~shifted_down(n0, w, words);
+        const std::uint64_t far_y = iy == nullptr ? 0 : (i0[w] ^ iy[w]) & ~n0[w] & ~ny[w];
+        const std::uint64_t far_z = iz == nullptr ? 0 : (i0[w] ^ iz[w]) & ~n0[w] & ~nz[w];
+        if ((far_x | far_y | far_z) == 0) continue;
+        note(w, far_x, {1, 0, 0});
+        note(w, far_y, {0, 1, 0});
+        note(w, far_z, {0, 0, 1});
       }
     }
     return found;
   };
-  return parallel_sum<FarFaces>(std::int64_t{ny} * nz, kRowsAtOnce, watch, rows_at_once);
+  return parallel_sum<FarFaces>(std::int64_t{size[1]} * size[2], kRowsAtOnce, watch, rows_at_once);
 }
 
 double squared_distance(const Voxel& a, const Voxel& b) {
@@ -63,7 +67,7 @@ double squared_distance(const Voxel& a, const Voxel& b) {
   return x * x + y * y + z * z;
 }
 
-/// The voxels that the soup touches, in boxes of 16^3, for the nearest one to any voxel.
+/// The voxels that the soup touches, in boxes of 8^3, for the nearest one to any voxel.
 class TouchedBoxes {
  public:
   explicit TouchedBoxes(const BitGrid& touched) {
@@ -97,7 +101,7 @@ class TouchedBoxes {
   }
 
  private:
-  static constexpr int kEdge = 16;
+  static constexpr int kEdge = 8;
 
   std::size_t index(const Voxel& box) const {
     return static_cast<std::size_t>((box[2] * size_[1] + box[1]) * size_[0] + box[0]);

@@ -69,8 +69,7 @@ double covered_share(const BitGrid& inside, const BitGrid& touched, StageWatch& 
 
 double surface_share(const BitGrid& inside, const BitGrid& touched, StageWatch& watch) {
   const BitRows rows(inside);
-  return share_of_touched(touched, watch,
-                          [&](int y, int z, std::size_t w) { return rows.grown(y, z, w) & ~rows.shrunk(y, z, w); });
+  return share_of_touched(touched, watch, [&](int y, int z, std::size_t w) { return rows.mixed(y, z, w); });
 }
 
 double voxels_per_face(const BitGrid& inside, StageWatch& watch) {
