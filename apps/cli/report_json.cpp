@@ -98,7 +98,7 @@ Json pseudo_volume_json(const PseudoVolumeReport& report) {
           {"band_voxels", report.band_voxels},
           {"automatic", report.automatic},
           {"floored", report.floored},
-
+          {"largest_closure", report.largest_closure},
           {"inside_voxels", report.inside_voxels},
           {"cavity_voxels", report.cavity_voxels},
           {"volume", report.volume},

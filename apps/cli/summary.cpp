@@ -222,6 +222,9 @@ std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& vo
   if (volume.cavity_voxels > 0)
     text += fmt::format(", {} of them in cavities that the soup encloses (--cavities keep leaves those hollow)",
                         grouped(volume.cavity_voxels));
+  text += volume.largest_closure > 0
+              ? fmt::format(". The largest hole that was closed is about {:.3g} wide", volume.largest_closure)
+              : std::string(". No hole had to be closed");
   return text + ".\n";
 }
 
