@@ -11,7 +11,6 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
-
 import tetsoup
 
 SUFFIXES = {".obj", ".stl", ".ply", ".off", ".gltf", ".glb"}
@@ -25,8 +24,11 @@ def mesh_file(path, out, tets):
     except (tetsoup.InvalidInput, tetsoup.IoError) as error:
         return row | {"error": str(error)}
     quality = mesh.quality
-    return row | {"tets": quality.tet_count, "parts": quality.components,
-                  "min angle": round(float(np.degrees(quality.min_dihedral)), 1)}
+    return row | {
+        "tets": quality.tet_count,
+        "parts": quality.components,
+        "min angle": round(float(np.degrees(quality.min_dihedral)), 1),
+    }
 
 
 def main(folder, out, tets="2000"):

@@ -6,7 +6,7 @@ namespace {
 
 // Taking the lock may have to wait for another thread of Python, 5 ms by default. This seldom it costs little, and
 // Ctrl-C is still noticed well within 100 ms.
-constexpr std::chrono::milliseconds kBetweenCalls{20};
+constexpr std::chrono::milliseconds kBetweenCalls{10};
 
 bool is_main_thread() {
   const nb::module_ threading = nb::module_::import_("threading");

@@ -10,9 +10,8 @@ import sys
 import typing
 
 import pytest
-from conftest import ROOT
-
 import tetsoup
+from conftest import ROOT
 from tetsoup import _core
 
 EXAMPLES = ROOT / "examples" / "python"
@@ -36,8 +35,13 @@ def test_the_command_is_the_tool():
 
 
 def test_every_option_of_the_library_has_a_keyword_with_a_type():
-    for group, stage in ((tetsoup.DistanceOptions, "distance"), (tetsoup.PseudoVolumeOptions, "pseudo_volume"),
-                         (tetsoup.LatticeOptions, "lattice"), (tetsoup.SmoothOptions, "smooth"), (tetsoup.MeshOptions, "")):
+    for group, stage in (
+        (tetsoup.DistanceOptions, "distance"),
+        (tetsoup.PseudoVolumeOptions, "pseudo_volume"),
+        (tetsoup.LatticeOptions, "lattice"),
+        (tetsoup.SmoothOptions, "smooth"),
+        (tetsoup.MeshOptions, ""),
+    ):
         assert set(typing.get_type_hints(group)) == set(_core.default_options(stage))
     signature = inspect.signature(tetsoup.tetrahedralize)
     assert signature.parameters["rho_min"].default == tetsoup.default_options()["rho_min"]
@@ -49,7 +53,9 @@ def test_defaults_are_the_librarys(cube):
     assert plain.points.tobytes() == spelled.points.tobytes()
 
 
-@pytest.mark.parametrize("thing", [p for p in PUBLIC if inspect.isfunction(p) or inspect.isclass(p)], ids=lambda p: p.__name__)
+@pytest.mark.parametrize(
+    "thing", [p for p in PUBLIC if inspect.isfunction(p) or inspect.isclass(p)], ids=lambda p: p.__name__
+)
 def test_everything_public_is_documented(thing):
     assert inspect.getdoc(thing)
     if inspect.isfunction(thing) and thing.__name__ not in ("sample_names", "formats", "thread_count"):

@@ -6,7 +6,6 @@ import threading
 
 import numpy as np
 import pytest
-
 import tetsoup
 
 
@@ -39,7 +38,7 @@ def test_fields_are_indexed_z_y_x_and_know_where_they_are(torus):
     values = field.values
     assert (values.dtype, values.shape, values.flags.c_contiguous) == (np.float32, field.shape, True)
     z, y, x = np.indices(field.shape)
-    x, y, z = (np.array(field.origin)[:, None, None, None] + field.voxel_size * np.array([x, y, z]))
+    x, y, z = np.array(field.origin)[:, None, None, None] + field.voxel_size * np.array([x, y, z])
     truth = np.abs(np.hypot(np.hypot(x, y) - 56.5, z) - 18.5)
     assert np.abs(values - truth).max() < 1  # the sample has flat facets
     assert field.shape[2] > 2 * field.shape[0]
@@ -78,8 +77,13 @@ def test_a_pipeline_repeats_only_what_changed(torus):
 
 def test_results_that_do_not_stand_are_refused(torus):
     pipeline = tetsoup.Pipeline(*torus)
-    for read in (lambda: pipeline.mesh, lambda: pipeline.lattice, lambda: pipeline.distance,
-                 lambda: pipeline.pseudo_volume, lambda: pipeline.save_preview("never.png")):
+    for read in (
+        lambda: pipeline.mesh,
+        lambda: pipeline.lattice,
+        lambda: pipeline.distance,
+        lambda: pipeline.pseudo_volume,
+        lambda: pipeline.save_preview("never.png"),
+    ):
         with pytest.raises(ValueError, match="run"):
             read()
     pipeline.run_until("pseudo_volume", voxels=16)

@@ -9,7 +9,6 @@ import sys
 
 import numpy as np
 import pytest
-
 import tetsoup
 
 
@@ -41,11 +40,24 @@ def test_any_real_type_any_strides_and_lists_give_the_same_bits(cube):
     wanted = tetsoup.tetrahedralize(vertices, faces, voxels=16)
     padded = np.zeros((8, 6), np.float32)
     padded[:, ::2] = vertices
-    for v in (vertices.astype(np.float32), vertices.astype(int), vertices.astype(">f8"), vertices.tolist(),
-              np.asfortranarray(vertices), padded[:, ::2], vertices.astype(np.float16)):
+    for v in (
+        vertices.astype(np.float32),
+        vertices.astype(int),
+        vertices.astype(">f8"),
+        vertices.tolist(),
+        np.asfortranarray(vertices),
+        padded[:, ::2],
+        vertices.astype(np.float16),
+    ):
         assert same(wanted, tetsoup.tetrahedralize(v, faces, voxels=16))
-    for f in (faces.astype(np.uint8), faces.astype(np.uint64), faces.astype(">i4"), faces.tolist(), faces[::-1],
-              np.asfortranarray(faces)):
+    for f in (
+        faces.astype(np.uint8),
+        faces.astype(np.uint64),
+        faces.astype(">i4"),
+        faces.tolist(),
+        faces[::-1],
+        np.asfortranarray(faces),
+    ):
         assert same(wanted, tetsoup.tetrahedralize(vertices, f, voxels=16))
     assert same(wanted, tetsoup.tetrahedralize(vertices[faces], voxels=16))
     assert same(wanted, tetsoup.tetrahedralize(tetsoup.Soup(vertices, faces), voxels=16))
@@ -81,8 +93,22 @@ def test_the_same_bits_as_the_tool(cube, tmp_path):
     soup = tetsoup.sample("robot")
     (tmp_path / "soup.obj").write_text(
         "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in soup.vertices.astype(float).tolist())
-        + "".join(f"f {a} {b} {c}\n" for a, b, c in (soup.faces + 1).tolist()))
-    command = [sys.executable, "-m", "tetsoup", "mesh", "soup.obj", "-o", "tool.msh", "--quiet", "--voxels", "64", "--rho-min", "0.3"]
+        + "".join(f"f {a} {b} {c}\n" for a, b, c in (soup.faces + 1).tolist())
+    )
+    command = [
+        sys.executable,
+        "-m",
+        "tetsoup",
+        "mesh",
+        "soup.obj",
+        "-o",
+        "tool.msh",
+        "--quiet",
+        "--voxels",
+        "64",
+        "--rho-min",
+        "0.3",
+    ]
     subprocess.run(command, check=True, cwd=tmp_path)
     mesh = tetsoup.tetrahedralize(*soup, voxels=64, rho_min=0.3)
     mesh.save(tmp_path / "python.msh")

@@ -1,15 +1,13 @@
 """A program that mypy --strict must accept; test_package.py runs it through mypy, nobody executes it."""
 
 import pathlib
-from typing import Optional
 
 import numpy as np
 import numpy.typing as npt
-
 import tetsoup
 
 
-def watch(stage: str, fraction: float) -> Optional[bool]:
+def watch(stage: str, fraction: float) -> bool | None:
     return fraction < 0.5
 
 

@@ -14,16 +14,46 @@ import numpy as np
 import numpy.typing as npt
 
 from tetsoup import _core
-from tetsoup._core import (BandScore, Cancelled, CleanSoup, DistanceField, InvalidInput, IoError, LatticeReport,
-                           PseudoVolume, PseudoVolumeReport, Quality, Readiness, ReadinessCheck, SmoothReport,
-                           SoupReport, TopologyReport)
+from tetsoup._core import (
+    BandScore,
+    Cancelled,
+    CleanSoup,
+    DistanceField,
+    InvalidInput,
+    IoError,
+    LatticeReport,
+    PseudoVolume,
+    PseudoVolumeReport,
+    Quality,
+    Readiness,
+    ReadinessCheck,
+    SmoothReport,
+    SoupReport,
+    TopologyReport,
+)
 from tetsoup._mesh import Report, TetMesh
 from tetsoup._progress import Progress, tqdm_progress
 from tetsoup._soup_input import Soup
-from tetsoup._stages import (LatticeMesh, Pipeline, SmoothResult, classify_volume, clean_soup, fill_lattice, smooth,
-                             tetrahedralize, unsigned_distance, widen_distance)
-from tetsoup.options import (DistanceOptions, LatticeOptions, MeshOptions, PseudoVolumeOptions, SmoothOptions,
-                             default_options)
+from tetsoup._stages import (
+    LatticeMesh,
+    Pipeline,
+    SmoothResult,
+    classify_volume,
+    clean_soup,
+    fill_lattice,
+    smooth,
+    tetrahedralize,
+    unsigned_distance,
+    widen_distance,
+)
+from tetsoup.options import (
+    DistanceOptions,
+    LatticeOptions,
+    MeshOptions,
+    PseudoVolumeOptions,
+    SmoothOptions,
+    default_options,
+)
 
 __version__: str = _core.VERSION
 for _error in (InvalidInput, IoError, Cancelled):
@@ -120,11 +150,49 @@ def _as_soup(vertices: npt.NDArray[np.float32], faces: npt.NDArray[np.uint32]) -
 
 
 __all__ = [
-    "BandScore", "Cancelled", "CleanSoup", "DistanceField", "DistanceOptions", "InvalidInput", "IoError", "LatticeMesh",
-    "LatticeOptions", "LatticeReport", "MeshOptions", "Pipeline", "Progress", "PseudoVolume", "PseudoVolumeOptions",
-    "PseudoVolumeReport", "Quality", "Readiness", "ReadinessCheck", "Report", "SmoothOptions", "SmoothReport",
-    "SmoothResult", "Soup", "SoupReport", "TetMesh", "TopologyReport", "__version__", "classify_volume", "clean_soup",
-    "default_options", "fill_lattice", "formats", "overlap", "read", "read_tets", "sample", "sample_names",
-    "set_thread_count", "smooth", "tetrahedralize", "thread_count", "tqdm_progress", "unsigned_distance",
+    "BandScore",
+    "Cancelled",
+    "CleanSoup",
+    "DistanceField",
+    "DistanceOptions",
+    "InvalidInput",
+    "IoError",
+    "LatticeMesh",
+    "LatticeOptions",
+    "LatticeReport",
+    "MeshOptions",
+    "Pipeline",
+    "Progress",
+    "PseudoVolume",
+    "PseudoVolumeOptions",
+    "PseudoVolumeReport",
+    "Quality",
+    "Readiness",
+    "ReadinessCheck",
+    "Report",
+    "SmoothOptions",
+    "SmoothReport",
+    "SmoothResult",
+    "Soup",
+    "SoupReport",
+    "TetMesh",
+    "TopologyReport",
+    "__version__",
+    "classify_volume",
+    "clean_soup",
+    "default_options",
+    "fill_lattice",
+    "formats",
+    "overlap",
+    "read",
+    "read_tets",
+    "sample",
+    "sample_names",
+    "set_thread_count",
+    "smooth",
+    "tetrahedralize",
+    "thread_count",
+    "tqdm_progress",
+    "unsigned_distance",
     "widen_distance",
 ]

@@ -62,7 +62,7 @@ class TetMesh:
     def __init__(self, points: npt.ArrayLike, tets: npt.ArrayLike) -> None:
         vertices, corners = as_points(points, "points"), as_indices(tets, "tets", 4)
         if corners.size and int(corners.max()) >= len(vertices):
-            raise InvalidInput(f"tets has the index {corners.max()}, must be below the number of points, {len(vertices)}")
+            raise InvalidInput(f"tets has the index {corners.max()}, must be below {len(vertices)}")
         self._handle = _core.TetMesh(vertices, corners)
 
     @classmethod
@@ -103,8 +103,14 @@ class TetMesh:
         """What was found, assumed and done. Meshes that were read, built or unpickled have none: AttributeError."""
         raise AttributeError("this mesh was not made by tetrahedralize() or a Pipeline, so it has no report")
 
-    def readiness(self, *, density: float | None = None, young: float | None = None, poisson: float | None = None,
-                  metres_per_unit: float | None = None) -> _core.Readiness:
+    def readiness(
+        self,
+        *,
+        density: float | None = None,
+        young: float | None = None,
+        poisson: float | None = None,
+        metres_per_unit: float | None = None,
+    ) -> _core.Readiness:
         """Will an engine simulate this well, what to change if not; mass, and a stable explicit time step.
 
         Args:
@@ -154,7 +160,7 @@ class TetMesh:
         return _interop.to_trimesh(self)
 
     def to_polyscope(self, name: str = "tetsoup") -> Any:
-        """Registers a volume mesh with polyscope, which must be initialised. Example: ``mesh.to_polyscope("bunny")``."""
+        """Registers a volume mesh with polyscope, initialised before. Example: ``mesh.to_polyscope("bunny")``."""
         return _interop.to_polyscope(self, name)
 
     def to_usd(self, stage: Any, path: str) -> Any:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Optional
+from typing import Any
 
 #: Called with a stage's name and the done fraction, 0..1; answering False cancels.
-Progress = Callable[[str, float], Optional[bool]]
+Progress = Callable[[str, float], bool | None]
 
 
 def tqdm_progress(**settings: Any) -> Progress:

@@ -105,7 +105,8 @@ def _from_corners(source: Any) -> tuple[Any, Any]:
     if corners.ndim != 3 or corners.shape[1:] != (3, 3):
         kind = type(source).__name__
         raise _core.InvalidInput(
-            f"faces is missing: {kind} of shape {corners.shape} is neither a mesh, nor a file's name, nor (F, 3, 3) corners")
+            f"faces is missing: {kind} of shape {corners.shape} is no mesh, no file's name, and no (F, 3, 3) corners"
+        )
     return corners.reshape(-1, 3), np.arange(3 * len(corners), dtype=np.uint32).reshape(-1, 3)
 
 

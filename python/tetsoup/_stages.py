@@ -11,8 +11,16 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from tetsoup import _core
 from tetsoup._mesh import Report, TetMesh
 from tetsoup._soup_input import as_soup
-from tetsoup.options import (DistanceOptions, LatticeOptions, MeshOptions, PseudoVolumeOptions, SmoothOptions, complete,
-                             documented)
+from tetsoup.options import (
+    ALL_GROUPS,
+    DistanceOptions,
+    LatticeOptions,
+    MeshOptions,
+    PseudoVolumeOptions,
+    SmoothOptions,
+    complete,
+    documented,
+)
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -58,8 +66,9 @@ def _clean(soup: Any) -> _core.CleanSoup:
 
 
 @documented(DistanceOptions)
-def unsigned_distance(soup: Any, *, progress: Progress | None = None,
-                      **options: Unpack[DistanceOptions]) -> _core.DistanceField:
+def unsigned_distance(
+    soup: Any, *, progress: Progress | None = None, **options: Unpack[DistanceOptions]
+) -> _core.DistanceField:
     """Stage 2: the distance from every voxel to the nearest triangle.
 
     Args:
@@ -78,8 +87,9 @@ def unsigned_distance(soup: Any, *, progress: Progress | None = None,
     return _core.unsigned_distance(_clean(soup), dict(options), progress)
 
 
-def widen_distance(field: _core.DistanceField, soup: Any, band_voxels: float, *,
-                   progress: Progress | None = None) -> _core.DistanceField:
+def widen_distance(
+    field: _core.DistanceField, soup: Any, band_voxels: float, *, progress: Progress | None = None
+) -> _core.DistanceField:
     """A field with a wider band; the same as `unsigned_distance` with that band, but cheaper.
 
     `classify_volume` says in its report's `wants_band_voxels` how wide the automatic choice of k wants it.
@@ -91,8 +101,9 @@ def widen_distance(field: _core.DistanceField, soup: Any, band_voxels: float, *,
 
 
 @documented(PseudoVolumeOptions)
-def classify_volume(field: _core.DistanceField, *, progress: Progress | None = None,
-                    **options: Unpack[PseudoVolumeOptions]) -> _core.PseudoVolume:
+def classify_volume(
+    field: _core.DistanceField, *, progress: Progress | None = None, **options: Unpack[PseudoVolumeOptions]
+) -> _core.PseudoVolume:
     """Stage 3: which voxels does the soup intuitively occupy?
 
     Returns:
@@ -109,8 +120,9 @@ def classify_volume(field: _core.DistanceField, *, progress: Progress | None = N
 
 
 @documented(LatticeOptions)
-def fill_lattice(volume: _core.PseudoVolume, soup: Any, *, progress: Progress | None = None,
-                 **options: Unpack[LatticeOptions]) -> LatticeMesh:
+def fill_lattice(
+    volume: _core.PseudoVolume, soup: Any, *, progress: Progress | None = None, **options: Unpack[LatticeOptions]
+) -> LatticeMesh:
     """Stage 4: a lattice of tets, cut by density.
 
     Raises:
@@ -169,7 +181,7 @@ class Pipeline:
         finally:
             self._lock.release()
 
-    @documented(MeshOptions)
+    @documented(*ALL_GROUPS)
     def run(self, *, progress: Progress | None = None, **options: Unpack[MeshOptions]) -> TetMesh:
         """Brings every stage up to date and returns the mesh.
 
@@ -181,7 +193,7 @@ class Pipeline:
             core.run_until("smooth", complete(options), progress)
             return TetMesh._wrap(core.mesh(), lambda: _report(core))
 
-    @documented(MeshOptions)
+    @documented(*ALL_GROUPS)
     def run_until(self, stage: Stage, *, progress: Progress | None = None, **options: Unpack[MeshOptions]) -> None:
         """Runs the stages up to and including this one.
 
@@ -244,18 +256,29 @@ class Pipeline:
 
 
 def _report(core: _core.Pipeline) -> Report:
-    return Report(core.soup_report(), core.volume_report(), core.lattice_report(), core.smooth_report(), core.seconds(),
-                  core.options())
+    return Report(
+        core.soup_report(),
+        core.volume_report(),
+        core.lattice_report(),
+        core.smooth_report(),
+        core.seconds(),
+        core.options(),
+    )
 
 
 def _captions(core: _core.Pipeline) -> list[str]:
-    return [f"{core.soup_report().used_triangles:,} triangles", f"votes, k = {core.volume_report().k:.4g}",
-            f"lattice, {core.lattice_report().tet_count:,} tets", f"mesh, volume {core.smooth_report().volume_after:.4g}"]
+    return [
+        f"{core.soup_report().used_triangles:,} triangles",
+        f"votes, k = {core.volume_report().k:.4g}",
+        f"lattice, {core.lattice_report().tet_count:,} tets",
+        f"mesh, volume {core.smooth_report().volume_after:.4g}",
+    ]
 
 
-@documented(MeshOptions)
-def tetrahedralize(vertices: Any, faces: Any = None, *, progress: Progress | None = None,
-                   **options: Unpack[MeshOptions]) -> TetMesh:
+@documented(*ALL_GROUPS)
+def tetrahedralize(
+    vertices: Any, faces: Any = None, *, progress: Progress | None = None, **options: Unpack[MeshOptions]
+) -> TetMesh:
     """Turns any triangle soup into a coarse, well-shaped tet mesh.
 
     Nothing has to be repaired first: holes, sheets, loose, crossing and inverted triangles are normal input; NaN,

@@ -1,13 +1,13 @@
 """Every option of the library, by stage: the keywords of the functions that take them.
 
-Each is one line: keyword, type, meaning. Defaults are the library's own (`tetsoup.default_options()`); leaving a keyword
-out takes them. Lengths are in the soup's own unit unless a name ends in ``_voxels`` or ``_cells``; angles are radians.
+Each is one line: keyword, type, meaning. Defaults are the library's own (`tetsoup.default_options()`); leaving a
+keyword out takes them. Lengths are in the soup's own unit unless a name ends in ``_voxels`` or ``_cells``; angles are
+radians.
 """
 
 from __future__ import annotations
 
 import inspect
-import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict, TypeVar, get_args, get_origin, get_type_hints
 
@@ -32,9 +32,9 @@ class DistanceOptions(TypedDict, total=False):
 
     voxels: Annotated[int | None, "voxels along the longest axis of the soup's box, 1..4096"]
     voxel_size: Annotated[float | None, "edge of a voxel, instead of `voxels`"]
-    box: Annotated[Corners | None, "lower and upper corner of the space to cover; it must hold the soup (the soup's own box)"]
+    box: Annotated[Corners | None, "corners of the space to cover, which must hold the soup (the soup's box)"]
     distance_band_voxels: Annotated[float, "half width of the band in which distances are exact, in voxels, >= 3"]
-    distance_mode: Annotated[Literal["band", "full"], "distances in the band only, all that meshing needs, or everywhere"]
+    distance_mode: Annotated[Literal["band", "full"], "distances in the band, all that meshing needs, or everywhere"]
 
 
 class PseudoVolumeOptions(TypedDict, total=False):
@@ -62,7 +62,10 @@ class LatticeOptions(TypedDict, total=False):
     fit: Annotated[Literal["off", "search"], "'search' moves and turns the lattice to match the volume best"]
     rho_min: Annotated[float, "a tet stays if at least this share of it is inside, (0, 1]"]
     thin: Annotated[Literal["keep", "drop"], "parts of the soup too thin for the lattice"]
-    cover: Annotated[Literal["density", "enclose", "inside"], "'enclose': every vertex of the soup lies in the mesh; 'inside': the mesh stays within the volume"]
+    cover: Annotated[
+        Literal["density", "enclose", "inside"],
+        "'enclose': the soup's vertices lie in the mesh; 'inside': it in the volume",
+    ]
     separate: Annotated[Literal["on", "off"], "keep apart what shares a cell without touching"]
     touching: Annotated[Literal["mend", "leave"], "tets joined by a vertex or an edge only"]
     min_part: Annotated[float, "parts with a smaller share of the volume are dropped, [0, 1)"]
@@ -78,10 +81,17 @@ class SmoothOptions(TypedDict, total=False):
     min_dihedral: Annotated[float, "dihedral angle that smoothing never goes below, radians in [0, pi/3)"]
 
 
-class MeshOptions(DistanceOptions, PseudoVolumeOptions, LatticeOptions, SmoothOptions, total=False):
-    """All of them."""
+class RunOptions(TypedDict, total=False):
+    """What the machine may give."""
 
     memory_limit: Annotated[int | None, "bytes that the voxel grid may take; None: no limit (what is free now)"]
+
+
+class MeshOptions(DistanceOptions, PseudoVolumeOptions, LatticeOptions, SmoothOptions, RunOptions, total=False):
+    """All options there are."""
+
+
+ALL_GROUPS = (DistanceOptions, PseudoVolumeOptions, LatticeOptions, SmoothOptions, RunOptions)
 
 
 def default_options() -> dict[str, Any]:
@@ -111,10 +121,13 @@ def documented(*groups: Any) -> Callable[[Function], Function]:
             lines += ["", f"    {group.__name__}: {inspect.getdoc(group)}"]
             for name, hint in get_type_hints(group, include_extras=True).items():
                 kind, meaning = get_args(hint) if get_origin(hint) is Annotated else (hint, "")
-                parameters.append(inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=defaults[name], annotation=kind))
-                lines.append(f"        {name}: {meaning} ({defaults[name]!r})")
-        if "__sphinx_build__" not in os.environ:
-            function.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+                keyword = inspect.Parameter(
+                    name, inspect.Parameter.KEYWORD_ONLY, default=defaults[name], annotation=kind
+                )
+                parameters.append(keyword)
+                default = "" if meaning.endswith(")") else f" ({defaults[name]!r})"  # some say it in words
+                lines.append(f"        {name}: {meaning}{default}")
+        function.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
         function.__doc__ = f"{inspect.getdoc(function)}\n\nOptions:{chr(10).join(lines)}\n"
         return function
 
