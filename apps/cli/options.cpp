@@ -4,8 +4,8 @@
 
 #include "angles.h"
 #include "arguments.h"
-#include "memory.h"
 #include "tetsoup/error.h"
+#include "tetsoup/io.h"
 
 namespace tetsoup::cli {
 
