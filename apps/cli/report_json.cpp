@@ -127,6 +127,8 @@ Json smooth_json(const SmoothReport& report) {
           {"shortened_moves", report.shortened_moves},
           {"volume_before", report.volume_before},
           {"volume_after", report.volume_after},
+          {"volume_wanted", report.volume_wanted},
+          {"snapped", report.snapped},
           {"min_dihedral_deg", to_degrees(report.min_dihedral)},
           {"boundary_volume_ratio", ratio}};
 }
@@ -151,7 +153,10 @@ Json options_json(const MeshOptions& options) {
           {"rotate_deg", vector_json(turn)},
           {"passes", options.smooth.passes},
           {"strength", options.smooth.strength},
+          {"snap", options.smooth.snap == Snap::Surface ? "on" : "off"},
           {"min_angle_deg", to_degrees(options.smooth.min_dihedral)},
+          {"max_angle_deg", to_degrees(options.smooth.max_dihedral)},
+          {"max_edge_ratio", options.smooth.max_edge_ratio},
           {"memory_limit_bytes", optional_json(options.memory_limit)},
           {"threads", thread_count()}};
 }
