@@ -2,7 +2,7 @@
 # header it names.
 
 # The flow. A layer sees the public headers of itself and of what stands before it, and its own private headers.
-set(layers soup distance pseudo_volume lattice smooth quality embed simulate pipeline io)
+set(layers soup distance pseudo_volume lattice smooth quality readiness embed simulate pipeline io)
 # Public headers without a layer; everybody sees them. They see each other.
 set(common_headers types error progress)
 # Private folders that every layer sees.

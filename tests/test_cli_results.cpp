@@ -165,6 +165,22 @@ TEST_F(Tool, inspects_a_tet_mesh_that_it_wrote) {
   EXPECT_NEAR(quality.at("volume").get<double>(), written.at("volume").get<double>(), 1e-5);
 }
 
+TEST_F(Tool, says_whether_the_mesh_is_ready_for_simulation_and_for_which_time_step) {
+  const Outcome outcome = mesh_cube({"--json", "cube.json", "--density", "500", "--metres-per-unit", "0.001"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Ready for simulation"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("explicit time steps up to"), std::string::npos) << outcome.out;
+  const Json report = Json::parse(read_text(in_folder("cube.json")));
+  const Json& readiness = report.at("readiness");
+  EXPECT_EQ(readiness.at("checks").at("inverted_tets").at("passed"), true);
+  EXPECT_EQ(readiness.at("checks").at("components").at("value"), 1);
+  EXPECT_NEAR(readiness.at("mass_kg").get<double>(), 500e-9 * report.at("volume").get<double>(), 1e-12);
+  EXPECT_GT(readiness.at("stable_time_step_s").get<double>(), 0);
+  const Outcome inspected = run({"inspect", "cube.msh", "--density", "500", "--metres-per-unit", "0.001"});
+  EXPECT_NE(inspected.out.find("explicit time steps up to"), std::string::npos) << inspected.out;
+  EXPECT_EQ(run({"inspect", "cube.msh", "--poisson", "0.5"}).exit_code, 2);
+}
+
 TEST_F(Tool, writes_the_field) {
   const Outcome outcome = run({"field", "cube.obj", "-o", "cube.vti", "--voxels", "16", "--k", "0.9"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

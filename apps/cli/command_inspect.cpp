@@ -9,6 +9,7 @@
 #include "interrupt.h"
 #include "options.h"
 #include "progress_bar.h"
+#include "readiness_page.h"
 #include "report_json.h"
 #include "summary.h"
 #include "tetsoup/io.h"
@@ -20,6 +21,7 @@ namespace {
 struct InspectCommand {
   std::string input;
   std::optional<std::string> json;
+  Material material;
   bool quiet = false;
 };
 
@@ -34,14 +36,16 @@ struct Diagnosis {
   std::string json;
 };
 
-Diagnosis diagnose(const std::string& input, ProgressBar& bar) {
+Diagnosis diagnose(const std::string& input, const Material& material, ProgressBar& bar) {
   bar.show("read");
   if (is_tet_file(input)) {
     const TetMesh mesh = read_tets(input);
     throw_if_interrupted();
     bar.show("measure");
     const Quality quality = measure_quality(mesh);
-    return {tabulate_tets(input, quality), tets_report_json(input, quality)};
+    const Readiness readiness = assess_readiness(mesh, quality, material);
+    return {tabulate_tets(input, quality) + describe_readiness(readiness, material),
+            tets_report_json(input, quality, readiness, material)};
   }
   const TriangleSoup soup = read_soup(input);
   const SoupReport report = clean_soup(soup, bar.callback()).report;
@@ -53,7 +57,7 @@ void run_inspect(const InspectCommand& command) {
   const bool json_to_stdout = command.json == "-";
   if (command.json && !json_to_stdout) Outputs(command.input).add("--json", *command.json);
   ProgressBar bar(command.quiet);
-  const Diagnosis diagnosis = diagnose(command.input, bar);
+  const Diagnosis diagnosis = diagnose(command.input, command.material, bar);
   bar.clear();
   throw_if_interrupted();
   if (command.json) write_report(*command.json, diagnosis.json);
@@ -78,6 +82,7 @@ void add_inspect_command(CLI::App& app) {
   add_flag(
       *inspect, "--json", "FILE|-", [command](const std::string& text) { command->json = text; },
       "Write a report for scripts; - is standard output");
+  add_material_flags(*inspect, command->material);
   add_quiet_flag(*inspect, command->quiet);
   inspect->callback([command] { run_inspect(*command); });
 }

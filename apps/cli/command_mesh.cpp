@@ -9,6 +9,7 @@
 #include "interrupt.h"
 #include "mesh_run.h"
 #include "options.h"
+#include "readiness_page.h"
 #include "report_json.h"
 #include "soup_input.h"
 #include "summary.h"
@@ -26,6 +27,7 @@ struct MeshCommand {
   std::optional<std::string> json;
   std::optional<std::string> preview;
   MeshOptions options;
+  Material material;
   RunOptions run;
 };
 
@@ -70,6 +72,7 @@ void measure(MeshRun& run) {
   const Stopwatch watch;
   run.quality = measure_quality(run.pipeline->smooth().mesh);
   run.iou = intersection_over_union(run.pipeline->smooth().mesh, run.pipeline->pseudo_volume().inside);
+  run.readiness = assess_readiness(run.pipeline->smooth().mesh, run.quality, run.material);
   run.seconds.quality = watch.seconds();
 }
 
@@ -116,6 +119,7 @@ void run_mesh(MeshCommand& command) {
   ProgressBar bar(command.run.quiet);
   MeshRun run;
   run.input = command.input;
+  run.material = command.material;
   const Pipeline pipeline = [&] {
     Pipeline opened = open_pipeline(command.input, bar, run.seconds.read);
     command.options.memory_limit = memory_limit(command.run);  // what is left once the soup is in memory
@@ -164,7 +168,10 @@ void add_mesh_command(CLI::App& app) {
   add_grid_flags(*mesh, command->options.distance);
   add_volume_flags(*mesh, command->options.pseudo_volume);
   add_lattice_flags(*mesh, command->options.lattice);
+  add_cover_flags(*mesh, command->options.lattice);
+  add_topology_flags(*mesh, command->options.lattice.topology);
   add_smooth_flags(*mesh, command->options.smooth);
+  add_material_flags(*mesh, command->material);
   add_flag(
       *mesh, "--json", "FILE|-", [command](const std::string& text) { command->json = text; },
       "Write a report for scripts; - is standard output")

@@ -9,6 +9,7 @@
 
 #include "tetsoup/pipeline.h"
 #include "tetsoup/quality.h"
+#include "tetsoup/readiness.h"
 
 namespace tetsoup::cli {
 
@@ -28,6 +29,8 @@ struct MeshRun {
   const Pipeline* pipeline = nullptr;  ///< Every stage has run.
   Quality quality;                     ///< Of the final mesh.
   double iou = 0;                      ///< Of the final mesh and the pseudo volume.
+  Material material;
+  Readiness readiness;
   Timings seconds;
 };
 

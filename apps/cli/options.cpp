@@ -13,6 +13,7 @@ namespace {
 
 // The ranges are those of the public headers; they are checked here so that the message names the flag.
 constexpr Range kVoxels{.low = 1, .high = 4096, .words = "a whole number from 1 to 4096"};
+constexpr Range kWanted{.low = 1, .high = 134217728, .words = "a whole number from 1 to 134217728"};
 constexpr Range kCells{.low = 1, .high = 1024, .words = "a whole number from 1 to 1024"};
 constexpr Range kShare{.low = 0, .high = 1, .low_included = false, .words = "a number above 0, at most 1"};
 constexpr Range kPasses{.low = 0, .high = 1000, .words = "a whole number from 0 to 1000"};
@@ -72,36 +73,62 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
         options.rays = text == "26" ? 26 : 13;
       },
       "Rays that vote on every voxel (26)");
-  CLI::Option* const placement = add_flag(
-      app, "--placement", "closest|entry",
-      [&options](const std::string& text) {
-        if (text != "closest" && text != "entry")
-          throw InvalidInput("--placement " + text + ": must be closest or entry");
-        options.placement = text == "entry" ? Placement::Entry : Placement::Closest;
-      },
+  CLI::Option* const placement = add_choice<Placement>(
+      app, "--placement", options.placement, {{"closest", Placement::Closest}, {"entry", Placement::Entry}},
       "Where a ray crosses the band: at its closest approach to the\nsoup, or on entering, which thickens the result "
       "(closest)");
-  CLI::Option* const cavities = add_flag(
-      app, "--cavities", "fill|keep",
-      [&options](const std::string& text) {
-        if (text != "fill" && text != "keep") throw InvalidInput("--cavities " + text + ": must be fill or keep");
-        options.cavities = text == "keep" ? Cavities::Keep : Cavities::Fill;
-      },
+  CLI::Option* const cavities = add_choice<Cavities>(
+      app, "--cavities", options.cavities, {{"fill", Cavities::Fill}, {"keep", Cavities::Keep}},
       "Space that the soup encloses although rays call it outside, as\nwhere closed parts overlap: inside, or left "
       "hollow (fill)");
   for (CLI::Option* const option : {k, voxels, band, rays, placement, cavities}) option->group(kVolumeGroup);
 }
 
-void add_lattice_flags(CLI::App& app, LatticeOptions& options) {
+namespace {
+
+/// How fine the lattice is: at most one of these.
+std::vector<CLI::Option*> add_size_flags(CLI::App& app, LatticeOptions& options) {
+  CLI::Option* const tets = add_flag(
+      app, "--tets", "N",
+      [&options](const std::string& text) {
+        options.tets = static_cast<std::size_t>(parse_whole("--tets", text, kWanted));
+      },
+      "Tets wanted: hit within 5 %, below 200 within 10 % (2000)");
+  CLI::Option* const vertices = add_flag(
+      app, "--vertices", "N",
+      [&options](const std::string& text) {
+        options.vertices = static_cast<std::size_t>(parse_whole("--vertices", text, kWanted));
+      },
+      "Vertices wanted, instead of --tets");
+  CLI::Option* const edge = add_flag(
+      app, "--edge", "L",
+      [&options](const std::string& text) { options.edge = parse_number("--edge", text, kPositive); },
+      "Mean edge of the lattice's tets in the model's unit");
   CLI::Option* const cells = add_flag(
       app, "--cells", "N",
       [&options](const std::string& text) { options.cells = parse_whole("--cells", text, kCells); },
-      "Cubic cells along the longest axis, five tets each, 1..1024\n(as many as give about 2,000 tets)");
+      "Cubic cells along the longest axis, 1..1024");
   CLI::Option* const size = add_flag(
       app, "--cell-size", "L",
       [&options](const std::string& text) { options.cell_size = parse_number("--cell-size", text, kPositive); },
-      "Edge of a cell in the model's unit, instead of --cells");
-  size->excludes(cells);
+      "Edge of a cell in the model's unit");
+  const std::vector<CLI::Option*> sizes{tets, vertices, edge, cells, size};
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) sizes[i]->excludes(sizes[j]);
+  return sizes;
+}
+
+}  // namespace
+
+void add_lattice_flags(CLI::App& app, LatticeOptions& options) {
+  for (CLI::Option* const option : add_size_flags(app, options)) option->group(kLatticeGroup);
+  CLI::Option* const kind = add_flag(
+      app, "--lattice", "five|bcc",
+      [&options](const std::string& text) {
+        if (text != "five" && text != "bcc") throw InvalidInput("--lattice " + text + ": must be five or bcc");
+        options.kind = text == "bcc" ? LatticeKind::Bcc : LatticeKind::Five;
+      },
+      "Cubes of five tets each, or body-centred cubes whose tets are\nall alike (five)");
   CLI::Option* const rho = add_flag(
       app, "--rho-min", "X",
       [&options](const std::string& text) { options.rho_min = parse_number("--rho-min", text, kShare); },
@@ -118,7 +145,14 @@ void add_lattice_flags(CLI::App& app, LatticeOptions& options) {
         options.rotate = {to_radians(degrees.x), to_radians(degrees.y), to_radians(degrees.z)};
       },
       "Rotation of the lattice in degrees about x, then y, then z,\naround the centre of the soup's box (0,0,0)");
-  for (CLI::Option* const option : {cells, size, rho, translate, rotate}) option->group(kLatticeGroup);
+  CLI::Option* const fit = add_flag(
+      app, "--fit", "off|search",
+      [&options](const std::string& text) {
+        if (text != "off" && text != "search") throw InvalidInput("--fit " + text + ": must be off or search");
+        options.fit = text == "search" ? Fit::Search : Fit::Off;
+      },
+      "Whether shift, rotation and edge of the lattice are searched for\nthat meet the shape best (off)");
+  for (CLI::Option* const option : {kind, rho, translate, rotate, fit}) option->group(kLatticeGroup);
 }
 
 void add_smooth_flags(CLI::App& app, SmoothOptions& options) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "angles.h"
+#include "readiness_page.h"
 #include "tetsoup/progress.h"
 
 namespace tetsoup::cli {
@@ -14,6 +15,10 @@ using Json = nlohmann::ordered_json;  // writes NaN and infinity as null
 
 Json vector_json(const Vec3d& v) {
   return Json::array({v.x, v.y, v.z});
+}
+
+Json degrees_json(const Vec3d& v) {
+  return vector_json({to_degrees(v.x), to_degrees(v.y), to_degrees(v.z)});
 }
 
 template <class T>
@@ -102,6 +107,19 @@ Json pseudo_volume_json(const PseudoVolumeReport& report) {
           {"candidates", candidates}};
 }
 
+Json topology_json(const TopologyReport& report) {
+  return {{"touching_mended", report.touching_mended},
+          {"tets_added", report.tets_added},
+          {"tets_dropped", report.tets_dropped},
+          {"vertices_doubled", report.vertices_doubled},
+          {"parts_dropped", report.parts_dropped},
+          {"dropped_volume", report.dropped_volume},
+          {"bubbles_filled", report.bubbles_filled},
+          {"bubble_tets", report.bubble_tets},
+          {"boundary_only_tets", report.boundary_only_tets},
+          {"boundary_only_edges", report.boundary_only_edges}};
+}
+
 Json lattice_json(const LatticeReport& report) {
   return {{"cells", report.cells},
           {"cell_size", report.cell_size},
@@ -110,7 +128,18 @@ Json lattice_json(const LatticeReport& report) {
           {"sampled_tets", report.sampled_tets},
           {"kept_volume", report.kept_volume},
           {"pseudo_volume", report.pseudo_volume},
-          {"kept_by_soup", report.kept_by_soup}};
+          {"kept_by_soup", report.kept_by_soup},
+          {"fills", report.fills},
+          {"translate", vector_json(report.translate_cells)},
+          {"rotate_deg", degrees_json(report.rotate)},
+          {"overlap", report.overlap},
+          {"overlap_unfitted", report.overlap_unfitted},
+          {"thin_tets", report.thin_tets},
+          {"enclosing_tets", report.enclosing_tets},
+          {"doubled_tets", report.doubled_tets},
+          {"excess_volume", report.excess_volume},
+          {"lacking_volume", report.lacking_volume},
+          {"topology", topology_json(report.topology)}};
 }
 
 Json smooth_json(const SmoothReport& report) {
@@ -137,7 +166,6 @@ Json options_json(const MeshOptions& options) {
   const DistanceOptions& distance = options.distance;
   const PseudoVolumeOptions& volume = options.pseudo_volume;
   const LatticeOptions& lattice = options.lattice;
-  const Vec3d turn{to_degrees(lattice.rotate.x), to_degrees(lattice.rotate.y), to_degrees(lattice.rotate.z)};
   return {{"voxels", optional_json(distance.voxels)},
           {"voxel_size", optional_json(distance.voxel_size)},
           {"k", optional_json(volume.k)},
@@ -150,7 +178,18 @@ Json options_json(const MeshOptions& options) {
           {"cell_size", optional_json(lattice.cell_size)},
           {"rho_min", lattice.rho_min},
           {"translate", vector_json(lattice.translate_cells)},
-          {"rotate_deg", vector_json(turn)},
+          {"rotate_deg", degrees_json(lattice.rotate)},
+          {"thin", lattice.thin == Thin::Keep ? "keep" : "drop"},
+          {"cover", lattice.cover == Cover::Density   ? "density"
+                    : lattice.cover == Cover::Enclose ? "enclose"
+                                                      : "inside"},
+          {"separate", lattice.separate == Separate::Apart},
+          {"touching", lattice.topology.touching == Touching::Mend ? "mend" : "leave"},
+          {"min_part", lattice.topology.min_part},
+          {"bubbles", lattice.topology.bubbles == Bubbles::Fill ? "fill" : "keep"},
+          {"boundary_only", lattice.topology.boundary_only == BoundaryOnly::Leave    ? "leave"
+                            : lattice.topology.boundary_only == BoundaryOnly::Remove ? "remove"
+                                                                                     : "split"},
           {"passes", options.smooth.passes},
           {"strength", options.smooth.strength},
           {"snap", options.smooth.snap == Snap::Surface ? "on" : "off"},
@@ -210,15 +249,20 @@ std::string mesh_report_json(const MeshRun& run) {
                   {"pseudo_volume", pseudo_volume_json(volume)},
                   {"lattice", lattice_json(pipeline.lattice().report)},
                   {"smooth", smooth_json(pipeline.smooth().report)},
-                  {"quality", quality_json(run.quality)}});
+                  {"quality", quality_json(run.quality)},
+                  {"readiness", readiness_json(run.readiness, run.material)}});
 }
 
 std::string soup_report_json(const std::string& input, const SoupReport& report) {
   return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"soup", soup_json(report)}});
 }
 
-std::string tets_report_json(const std::string& input, const Quality& quality) {
-  return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"quality", quality_json(quality)}});
+std::string tets_report_json(const std::string& input, const Quality& quality, const Readiness& readiness,
+                             const Material& material) {
+  return text_of({{"input", input},
+                  {"version", TETSOUP_VERSION},
+                  {"quality", quality_json(quality)},
+                  {"readiness", readiness_json(readiness, material)}});
 }
 
 }  // namespace tetsoup::cli

@@ -11,7 +11,8 @@ namespace tetsoup::cli {
 
 std::string mesh_report_json(const MeshRun& run);
 std::string soup_report_json(const std::string& input, const SoupReport& report);
-std::string tets_report_json(const std::string& input, const Quality& quality);
+std::string tets_report_json(const std::string& input, const Quality& quality, const Readiness& readiness,
+                             const Material& material);
 
 /// "closed", "open", "soup" or "empty", in reports and in texts.
 const char* class_name(SoupClass kind);

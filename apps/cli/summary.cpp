@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "angles.h"
+#include "readiness_page.h"
 #include "report_json.h"
 
 namespace tetsoup::cli {
@@ -53,15 +54,34 @@ std::string describe_edges(const SoupReport& soup) {
   return text;
 }
 
+/// What was kept beyond density, and what the clean-up did.
+std::string describe_care(const LatticeReport& lattice) {
+  const TopologyReport& topology = lattice.topology;
+  std::vector<std::string> done;
+  const auto say = [&](std::size_t count, std::string_view noun, std::string_view what) {
+    if (count > 0) done.push_back(counted(count, noun) + " " + std::string(what));
+  };
+  say(lattice.thin_tets, "tet", "kept for thin parts");
+  say(lattice.enclosing_tets, "tet", "added to enclose every vertex");
+  say(lattice.doubled_tets, "tet", "doubled to keep apart what does not touch");
+  say(topology.bubbles_filled, "bubble", "filled");
+  say(topology.parts_dropped, "crumb", "dropped (--min-part 0 keeps them)");
+  say(topology.touching_mended, "place", "mended where tets merely touched");
+  say(topology.boundary_only_tets, "tet", "with boundary vertices only taken care of");
+  return done.empty() ? std::string() : "Care taken: " + listed(done) + ".\n";
+}
+
 std::string describe_lattice(const LatticeReport& lattice, const SmoothReport& smooth) {
   std::string text =
       fmt::format("Lattice: {} x {} x {} cells of edge {:.4g}; {} kept.", lattice.cells[0], lattice.cells[1],
                   lattice.cells[2], lattice.cell_size, counted(lattice.tet_count, "tet"));
-  if (smooth.passes == 0) return text + " Not smoothed.\n";
-  return text + fmt::format(" Smoothed in {}{}.\n", counted(static_cast<std::size_t>(smooth.passes), "pass"),
-                            smooth.shortened_moves > 0 ? fmt::format("; {} cut short for the sake of the angles",
-                                                                     counted(smooth.shortened_moves, "move"))
-                                                       : std::string());
+  if (smooth.passes == 0) return text + " Not smoothed.\n" + describe_care(lattice);
+  return text +
+         fmt::format(" Smoothed in {}{}.\n", counted(static_cast<std::size_t>(smooth.passes), "pass"),
+                     smooth.shortened_moves > 0 ? fmt::format("; {} cut short for the sake of the angles",
+                                                              counted(smooth.shortened_moves, "move"))
+                                                : std::string()) +
+         describe_care(lattice);
 }
 
 std::string describe_result(const MeshRun& run) {
@@ -111,22 +131,11 @@ void note_lattice(const MeshRun& run, std::vector<std::string>& notes) {
         "The mesh follows the shape only roughly. More cells follow it more closely: --cells {}.", more_cells));
 }
 
-void note_topology(const Quality& quality, std::vector<std::string>& notes) {
+void note_faults(const Quality& quality, std::vector<std::string>& notes) {
   if (quality.inverted_tets + quality.invalid_tets > 0)
     notes.push_back(
         fmt::format("{} of the mesh have no positive volume. This is a bug; please report it with the input.",
                     counted(quality.inverted_tets + quality.invalid_tets, "tet")));
-  if (quality.components > 1)
-    notes.push_back(
-        fmt::format("The mesh is in {} pieces that share no face. To join what is meant to be one, try a much lower "
-                    "--rho-min, such "
-                    "as 0.1, or smaller cells (--cells).",
-                    grouped(quality.components)));
-  if (!quality.boundary_manifold)
-    notes.push_back(
-        fmt::format("The boundary touches itself: {} and {} are not manifold. Most simulations "
-                    "take that; contact surfaces may not.",
-                    counted(quality.non_manifold_edges, "edge"), counted(quality.non_manifold_vertices, "vertex")));
 }
 
 std::string describe_seconds(const Timings& seconds) {
@@ -208,8 +217,9 @@ std::string describe_run(const MeshRun& run) {
   const std::string raised = describe_raised_voxels(pipeline.soup(), run.options.distance, frame);
   if (!raised.empty()) notes.push_back(raised);
   note_lattice(run, notes);
-  note_topology(run.quality, notes);
+  note_faults(run.quality, notes);
   for (const std::string& note : notes) text += "Note: " + note + "\n";
+  text += describe_readiness(run.readiness, run.material);
   text += describe_seconds(run.seconds);
   for (const auto& path : run.outputs) text += "Wrote " + path.string() + "\n";
   return text;

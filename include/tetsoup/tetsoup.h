@@ -16,6 +16,7 @@
 #include "tetsoup/lattice.h"
 #include "tetsoup/smooth.h"
 #include "tetsoup/quality.h"
+#include "tetsoup/readiness.h"
 #include "tetsoup/pipeline.h"
 
 namespace tetsoup {

@@ -1,36 +1,15 @@
 #include "quality/topology.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 #include "base/groups.h"
 #include "base/tet_faces.h"
+#include "base/unions.h"
 
 namespace tetsoup {
 
 namespace {
-
-/// Disjoint sets; the smallest member represents its set.
-class Unions {
- public:
-  explicit Unions(std::size_t count) {
-    parent_.resize(count);
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// One side of a boundary triangle, with the triangle's corners at its two ends (corner = 3 * triangle + 0..2).
 struct Side {
