@@ -160,13 +160,10 @@ void add_smooth_flags(CLI::App& app, SmoothOptions& options) {
       app, "--passes", "N",
       [&options](const std::string& text) { options.passes = parse_whole("--passes", text, kPasses); },
       "Smoothing passes, 0..1000; 0 leaves the lattice as it is (6)");
-  CLI::Option* const snap = add_flag(
-      app, "--snap", "on|off",
-      [&options](const std::string& text) {
-        if (text != "on" && text != "off") throw InvalidInput("--snap " + text + ": must be on or off");
-        options.snap = text == "on" ? Snap::Surface : Snap::Off;
-      },
-      "Draw the boundary to the surface of the inside voxels; off fairs\nit only and keeps the lattice's volume (on)");
+  CLI::Option* const snap =
+      add_choice<Snap>(app, "--snap", options.snap, {{"on", Snap::Surface}, {"off", Snap::Off}},
+                       "Draw the boundary to the surface of the inside voxels; off fairs\nit only and keeps the "
+                       "lattice's volume (on)");
   CLI::Option* const strength = add_flag(
       app, "--strength", "X",
       [&options](const std::string& text) { options.strength = parse_number("--strength", text, kPositive); },

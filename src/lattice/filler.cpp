@@ -8,6 +8,7 @@
 #include "base/mesh_voxels.h"
 #include "base/require.h"
 #include "lattice/cover.h"
+#include "lattice/even_out.h"
 #include "lattice/gather_candidates.h"
 #include "lattice/passed_voxels.h"
 #include "lattice/separate.h"
@@ -127,6 +128,8 @@ void Filler::mend(Fill& fill) {
   LatticeReport& report = fill.mended;
   if (!fill.by_soup) {
     if (options_.cover == Cover::Inside) keep_inside_tets(candidates);
+    if (options_.stairs == Stairs::Even && options_.cover != Cover::Inside)
+      report.evened_tets = even_out(candidates, options_.rho_min);
     if (!candidates.passed.empty() && options_.thin == Thin::Keep)
       report.thin_tets = keep_thin_parts(candidates, volume_.inside, *passed_, watch_);
     if (options_.cover == Cover::Enclose)
