@@ -67,10 +67,13 @@ class Evening {
     }
     const double volume = (kept ? 1 : -1) * (complex_.density(t) - rho_min_) * complex_.volume(t);
     if (volume + kArea * edge_ * boundary >= 0) return false;
+    std::array<bool, 4> was_sound{};
+    const Tet& corners = complex_.corners(t);
+    for (std::size_t i = 0; i < 4; ++i) was_sound[i] = complex_.is_sound(corners[i]);
     const std::uint8_t before = complex_.state(t);
     complex_.set_state(t, kept ? 0 : 1);
-    for (const std::uint32_t v : complex_.corners(t)) {
-      if (complex_.is_sound(v)) continue;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!was_sound[i] || complex_.is_sound(corners[i])) continue;
       complex_.set_state(t, before);
       return false;
     }
