@@ -61,6 +61,7 @@ std::string describe_care(const LatticeReport& lattice) {
   const auto say = [&](std::size_t count, std::string_view noun, std::string_view what) {
     if (count > 0) done.push_back(counted(count, noun) + " " + std::string(what));
   };
+  say(lattice.evened_tets, "tet", "dropped or added to even the stairs");
   say(lattice.thin_tets, "tet", "kept for thin parts");
   say(lattice.enclosing_tets, "tet", "added to enclose every vertex");
   say(lattice.doubled_tets, "tet", "doubled to keep apart what does not touch");
