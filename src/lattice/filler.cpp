@@ -132,8 +132,11 @@ void Filler::mend(Fill& fill) {
     report.thin_tets = keep_thin_parts(candidates, volume_.inside, *passed_, watch_);
   if (options_.cover == Cover::Enclose)
     report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
-  if (options_.separate == Separate::Apart && !fill.by_soup)
-    report.doubled_tets = separate(candidates, volume_.inside, options_.rho_min, watch_);
+  if (options_.separate == Separate::Apart && !fill.by_soup) {
+    const Separated apart = separate(candidates, volume_.inside, options_.rho_min, watch_);
+    report.doubled_tets = apart.tets;
+    report.parted_vertices = apart.vertices;
+  }
   TopologyOptions topology = options_.topology;
   if (options_.cover == Cover::Enclose) topology.min_part = 0;  // or what was enclosed would be dropped
   report.topology = clean_topology(candidates, topology, watch_);

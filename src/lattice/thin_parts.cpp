@@ -11,8 +11,9 @@
 namespace tetsoup {
 namespace {
 
-/// Lattice edges, between centres of tets: a shorter stretch of a thin part may be lost.
-constexpr double kLeastLength = 1;
+/// Lattice edges, between centres of tets: a shorter stretch without cover, that is one to some 1.5 edges long, is
+/// left.
+constexpr double kLeastLength = 0.5;
 constexpr float kThick = 0.9F;      ///< Share of a tet; what fills one is not thin there.
 constexpr float kTrace = 0.02F;     ///< Share of a tet; a part that has less of it is not in it.
 constexpr float kOfFullest = 0.5F;  ///< A thin part keeps the tets it fills at least half as much as its fullest near.
