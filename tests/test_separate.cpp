@@ -18,7 +18,7 @@ using test::euler_characteristic;
 using test::make_candidates;
 using test::make_solid;
 
-std::size_t separate(Candidates& candidates, const BitGrid& inside, double rho_min = 0.5) {
+Separated separate(Candidates& candidates, const BitGrid& inside, double rho_min = 0.5) {
   const Progress nobody;
   StageWatch watch(nobody, "lattice");
   return tetsoup::separate(candidates, inside, rho_min, watch);
@@ -78,7 +78,8 @@ TEST_P(Shifts, a_ball_and_a_block_stay_as_they_are) {
     const BitGrid inside = make_solid({{-1, -1, -1}, {1, 1, 1}}, 60, solid);
     Candidates candidates = make_candidates(inside, 0.25, 0.5, GetParam());
     const Candidates before = candidates;
-    EXPECT_EQ(separate(candidates, inside), 0U);
+    const Separated done = separate(candidates, inside);
+    EXPECT_EQ(done.tets + done.vertices, 0U);
     EXPECT_EQ(candidates.mesh.tets, before.mesh.tets);
     EXPECT_EQ(candidates.mesh.vertices, before.mesh.vertices);
     EXPECT_EQ(candidates.kept, before.kept);
@@ -167,7 +168,7 @@ TEST(Separate, two_thin_plates_in_one_layer_of_cells_each_keep_it) {
   const double shift = (1.5 * inside.frame.voxel_size + 1.5 * cell) / cell;
   Candidates candidates = make_candidates(inside, cell, 0.4, {0, 0, shift - std::floor(shift)});
   EXPECT_EQ(measure_quality(kept_mesh(candidates)).components, 1U);
-  EXPECT_GT(separate(candidates, inside, 0.4), 100U);
+  EXPECT_GT(separate(candidates, inside, 0.4).tets, 100U);
   expect_sound(candidates);
   EXPECT_EQ(measure_quality(kept_mesh(candidates)).components, 2U);
 }

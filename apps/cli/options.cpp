@@ -4,8 +4,8 @@
 
 #include "angles.h"
 #include "arguments.h"
-#include "memory.h"
 #include "tetsoup/error.h"
+#include "tetsoup/io.h"
 
 namespace tetsoup::cli {
 
@@ -145,13 +145,9 @@ void add_lattice_flags(CLI::App& app, LatticeOptions& options) {
         options.rotate = {to_radians(degrees.x), to_radians(degrees.y), to_radians(degrees.z)};
       },
       "Rotation of the lattice in degrees about x, then y, then z,\naround the centre of the soup's box (0,0,0)");
-  CLI::Option* const fit = add_flag(
-      app, "--fit", "off|search",
-      [&options](const std::string& text) {
-        if (text != "off" && text != "search") throw InvalidInput("--fit " + text + ": must be off or search");
-        options.fit = text == "search" ? Fit::Search : Fit::Off;
-      },
-      "Whether shift, rotation and edge of the lattice are searched for\nthat meet the shape best (off)");
+  CLI::Option* const fit = app.add_flag_callback(
+      "--fit", [&options] { options.fit = Fit::Search; },
+      "Search for the shift, rotation and edge of the lattice that meet\nthe shape best");
   for (CLI::Option* const option : {kind, rho, translate, rotate, fit}) option->group(kLatticeGroup);
 }
 

@@ -115,9 +115,10 @@ struct LatticeReport {
   std::size_t evened_tets = 0;     ///< Dropped where they stuck out, or added to fill a notch, for a smoother boundary.
   std::size_t thin_tets = 0;       ///< Kept because a piece of the soup would have lost its cover.
   std::size_t enclosing_tets = 0;  ///< Kept to enclose the soup's vertices.
-  std::size_t doubled_tets = 0;    ///< Copies made to keep apart what is apart.
-  double excess_volume = 0;        ///< Of the mesh, outside the pseudo volume,
-  double lacking_volume = 0;       ///< and of the pseudo volume, outside the mesh.
+  std::size_t doubled_tets = 0;    ///< Copies made to keep apart what is apart,
+  std::size_t parted_vertices = 0;  ///< and vertices doubled between tets that stay what they were.
+  double excess_volume = 0;         ///< Of the mesh, outside the pseudo volume,
+  double lacking_volume = 0;        ///< and of the pseudo volume, outside the mesh.
   TopologyReport topology;
 };
 

@@ -15,6 +15,7 @@ class Unions {
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
+  std::size_t size() const { return parent_.size(); }
   std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

@@ -18,7 +18,7 @@ constexpr int kTriesUpright = 5;     ///< and before it is turned.
 /// once.
 constexpr Vec3d kShift{0.31, 0.17, 0.43};
 /// Radians. A flat side along the lattice loses or gains a whole layer at once, wherever the lattice lies.
-constexpr Vec3d kTurn{0.07, 0.05, 0.06};
+constexpr Vec3d kTurn{0.21, 0.13, 0.17};
 constexpr double kSharedVertices = 1.6;  ///< Vertices of a coarse mesh over those of as much endless lattice.
 
 struct Try {
@@ -29,6 +29,7 @@ struct Try {
 /// Where the count would be met by what is known: between two tries that miss it to either side, else along a power of
 /// the edge from the nearest.
 double next_log_edge(std::vector<Try> tries, double power) {
+  const bool same_side = tries.size() > 1 && (tries.back().miss > 0) == (tries[tries.size() - 2].miss > 0);
   std::sort(tries.begin(), tries.end(), [](const Try& a, const Try& b) { return a.log_edge < b.log_edge; });
   const Try* below = nullptr;
   double nearest = 1e300;
@@ -41,14 +42,17 @@ double next_log_edge(std::vector<Try> tries, double power) {
   }
   if (below != nullptr) {
     const Try& above = *(below + 1);
-    constexpr double kMargin = 0.15;  // a jump of the count at one end must not stop the bracket from shrinking
-    const double part = std::clamp(below->miss / (below->miss - above.miss), kMargin, 1 - kMargin);
+    // Where the count jumps, the line through both ends comes down on the same side again and again: then halve.
+    const double part = same_side ? 0.5 : below->miss / (below->miss - above.miss);
     return below->log_edge + part * (above.log_edge - below->log_edge);
   }
   const auto closer = [](const Try& a, const Try& b) { return std::abs(a.miss) < std::abs(b.miss); };
   const Try& best = *std::min_element(tries.begin(), tries.end(), closer);
-  constexpr double kMostChange = 0.7;  // a factor of two
-  return best.log_edge + std::clamp(best.miss / power, -kMostChange, kMostChange);
+  constexpr double kMostChange = 0.7, kLeastChange = 0.03;  // a factor of two; beyond what was tried already
+  const double next = best.log_edge + std::clamp(best.miss / power, -kMostChange, kMostChange);
+  if (tries.size() == 1) return next;
+  return best.miss > 0 ? std::max(next, tries.back().log_edge + kLeastChange)
+                       : std::min(next, tries.front().log_edge - kLeastChange);
 }
 
 /// The power of the edge that the count falls with, from two tries that are far enough apart to tell.
@@ -66,7 +70,7 @@ class Search {
       : filler_(filler), budget_(budget), pose_(start), tuning_(tuning), place_(place_of(start, filler.grid())) {}
 
   Fill run(int most_fills) {
-    const double largest = 2 * filler_.longest_edge(), smallest = filler_.smallest_cell();
+    const double largest = 4 * filler_.longest_edge(), smallest = filler_.smallest_cell();
     const double stop = kGoodEnough * budget_.tolerance();
     double cell_size = pose_.cell_size;
     for (int i = 0; i < most_fills; ++i) {
@@ -87,10 +91,14 @@ class Search {
     if (tuning_ == FineTuning::None) pose_ = pose_of(place_, filler_.grid());
   }
 
+  /// What the soup passes through is no better aligned than turned.
   void tune_after(int tries) {
+    const int upright = filler_.has_volume() ? kTriesUpright : kTriesAsGiven;
+    const bool turns = !turned_ && tries >= upright;
     if (tries == kTriesAsGiven) pose_.translate_cells += kShift;
-    if (tries == kTriesUpright) pose_.rotate += kTurn;
-    if (tries == kTriesAsGiven) tries_.clear();
+    if (turns) pose_.rotate += kTurn;
+    if (turns || tries == kTriesAsGiven) tries_.clear();
+    turned_ = turned_ || turns;
   }
 
   /// The first time that density leaves crumbs the edge may be to blame; the next time the soup decides.
@@ -118,6 +126,7 @@ class Search {
   Place place_;
   std::vector<Try> tries_;
   bool crumbs_ = false;
+  bool turned_ = false;
   Fill best_;
   double best_miss_ = 1e300;
 };

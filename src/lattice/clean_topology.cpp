@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostRounds = 8;  ///< Of filling bubbles and mending before mending may add no more tets.
 
-/// Components, joined through faces, below `min_part` of the volume; the largest stays.
+/// Components, joined through faces, below `min_part` of the volume; the largest stays, and those with a held tet.
 void drop_parts(TetComplex& complex, double min_part, TopologyReport& report) {
   Unions parts(complex.tet_count());
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
@@ -22,14 +22,20 @@ void drop_parts(TetComplex& complex, double min_part, TopologyReport& report) {
       if (const std::uint32_t n = complex.neighbour(t, i); n < t && complex.is_kept(n)) parts.join(n, t);
   }
   std::vector<double> volume(complex.tet_count(), 0);  // by the part's first tet
+  std::vector<std::uint8_t> is_held(complex.tet_count(), 0);
   double whole = 0;
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
     if (!complex.is_kept(t)) continue;
-    volume[parts.find(t)] += complex.volume(t);
-    whole += complex.volume(t);
+    const double v = complex.volume(t);
+    const std::size_t part = parts.find(t);
+    volume[part] += v;
+    if (complex.is_held(t)) is_held[part] = 1;
+    whole += v;
   }
   const auto largest = static_cast<std::size_t>(std::max_element(volume.begin(), volume.end()) - volume.begin());
-  const auto is_small = [&](std::size_t part) { return part != largest && volume[part] < min_part * whole; };
+  const auto is_small = [&](std::size_t part) {
+    return part != largest && !is_held[part] && volume[part] < min_part * whole;
+  };
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
     if (!complex.is_kept(t) || !is_small(parts.find(t))) continue;
     if (parts.find(t) == t) {
@@ -83,6 +89,7 @@ void mend_and_fill(TetComplex& complex, const TopologyOptions& options, Topology
     const bool filled = options.bubbles == Bubbles::Fill && fill_bubbles(complex, report);
     if (round > 0 && !filled) return;
     if (options.touching == Touching::Leave) return;
+    watch.step(0);  // reports nothing new, but notices cancellation
     mend_touching(complex, round < kMostRounds ? Ways::All : Ways::PartingOnly, report, watch);
   }
 }
@@ -94,15 +101,11 @@ TopologyReport clean_topology(Candidates& candidates, const TopologyOptions& opt
   TopologyReport report;
   {
     TetComplex complex(candidates);
-    report.tets_dropped += complex.dropped_at_faces();
-    watch.step(0.4);
     mend_and_fill(complex, options, report, watch);
-    watch.step(0.7);
     if (options.boundary_only == BoundaryOnly::Remove) remove_boundary_only(complex, report);
     drop_parts(complex, options.min_part, report);
   }
   if (options.boundary_only == BoundaryOnly::Split) split_boundary_only(candidates, report);
-  watch.step(1);
   return report;
 }
 

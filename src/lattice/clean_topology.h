@@ -11,7 +11,7 @@ namespace tetsoup {
 /// tets with four boundary vertices as the options say. Doubled vertices and split tets are appended to the candidates.
 ///
 /// Adds tets from the candidates only, so a mesh that must stay within something is given no others. Drops tets marked
-/// kHeld only where nothing else helps. What it leaves it leaves again: a second call changes nothing.
+/// kHeld only where nothing else helps, and no component that has one. A second call changes nothing.
 ///
 /// Cost: O(tets log tets).
 TopologyReport clean_topology(Candidates& candidates, const TopologyOptions& options, StageWatch& watch);

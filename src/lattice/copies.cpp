@@ -67,7 +67,7 @@ bool Copies::is_small(std::uint32_t copy) {
 void Copies::drop_thin_of_thick(double rho_min) {
   std::vector<std::uint32_t> dropped;
   for (std::size_t t = 0; t < candidates_.kept.size(); ++t) {
-    if (pieces_.count(t) < 2 || !candidates_.kept[t]) continue;
+    if (pieces_.count(t) < 2 || candidates_.kept[t] != 1) continue;
     const std::vector<std::uint32_t> copies = of(t);
     if (copies.size() < 2) continue;
     for (const std::uint32_t copy : copies) {
@@ -177,7 +177,8 @@ bool Copies::drop_crumbs() {
   bool any = false;
   for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
     const std::size_t part = parts.find(set_of(p));
-    if (!worthy_[p] || sizes[part] > kCrumb || !torn[part] || !goes_on[part]) continue;
+    if (!worthy_[p] || candidates_.kept[pieces_.tet_of(p)] == kHeld) continue;
+    if (sizes[part] > kCrumb || !torn[part] || !goes_on[part]) continue;
     worthy_[p] = 0;
     any = true;
   }

@@ -7,6 +7,7 @@
 #include "base/bits.h"
 #include "base/mesh_voxels.h"
 #include "base/require.h"
+#include "lattice/clean_topology.h"
 #include "lattice/cover.h"
 #include "lattice/even_out.h"
 #include "lattice/gather_candidates.h"
@@ -71,7 +72,8 @@ double core_share(const BitGrid& inside, StageWatch& watch) {
 }  // namespace
 
 std::size_t Fill::kept_tets() const {
-  return static_cast<std::size_t>(std::count(candidates.kept.begin(), candidates.kept.end(), 1));
+  return static_cast<std::size_t>(
+      std::count_if(candidates.kept.begin(), candidates.kept.end(), [](std::uint8_t kept) { return kept != 0; }));
 }
 
 std::size_t Fill::kept_vertices() const {
@@ -126,18 +128,22 @@ Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
 void Filler::mend(Fill& fill) {
   Candidates& candidates = fill.candidates;
   LatticeReport& report = fill.mended;
-  if (!fill.by_soup) {
-    if (options_.cover == Cover::Inside) keep_inside_tets(candidates);
-    if (options_.stairs == Stairs::Even && options_.cover != Cover::Inside)
-      report.evened_tets = even_out(candidates, options_.rho_min);
-    if (!candidates.passed.empty() && options_.thin == Thin::Keep)
-      report.thin_tets = keep_thin_parts(candidates, volume_.inside, *passed_, watch_);
-    if (options_.cover == Cover::Enclose)
-      report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
-    if (options_.separate == Separate::Apart)
-      report.doubled_tets = separate(candidates, volume_.inside, options_.rho_min, watch_);
+  if (options_.cover == Cover::Inside && !fill.by_soup) keep_inside_tets(candidates);
+  if (options_.stairs == Stairs::Even && options_.cover != Cover::Inside && !fill.by_soup)
+    report.evened_tets = even_out(candidates, options_.rho_min);
+  if (options_.thin == Thin::Keep && !candidates.passed.empty())
+    report.thin_tets = keep_thin_parts(candidates, volume_.inside, *passed_, watch_);
+  if (options_.cover == Cover::Enclose)
+    report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
+  if (options_.separate == Separate::Apart && !fill.by_soup) {
+    const Separated apart = separate(candidates, volume_.inside, options_.rho_min, watch_);
+    report.doubled_tets = apart.tets;
+    report.parted_vertices = apart.vertices;
   }
-  // clean_topology: options_.topology
+  TopologyOptions topology = options_.topology;
+  if (options_.cover == Cover::Enclose) topology.min_part = 0;  // or what was enclosed would be dropped
+  report.topology = clean_topology(candidates, topology, watch_);
+  if (options_.cover == Cover::Enclose) report.enclosing_tets += enclose_apart(candidates, soup_.soup.vertices, watch_);
 }
 
 Shares Filler::shares(const TetMesh& mesh) const {

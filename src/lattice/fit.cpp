@@ -9,10 +9,10 @@ namespace {
 
 constexpr double kPointsPerTet = 20;
 constexpr double kLeastPoints = 16000, kMostPoints = 100000;
-constexpr double kMostLookups = 4e7;  ///< Points times guesses, some 0.3 s of one core.
+constexpr double kMostLookups = 3e7;  ///< Points times guesses, some 0.2 s of one core.
 constexpr int kRotations = 24;        ///< Tried besides the given and the principal one,
 constexpr int kShifts = 8;            ///< each with so many shifts.
-constexpr int kGuessesPerClimb = 112;
+constexpr int kGuessesPerClimb = 70;
 /// Relative; what the count may miss the wanted one by at no cost.
 constexpr double kFreeMiss = 0.02;
 

@@ -17,35 +17,48 @@ Vec3d centre_of(const GridFrame& grid) {
   return (box.lo + box.hi) * 0.5;
 }
 
-/// A cell and one of its tets.
-struct Owner {
-  Cell cell;
-  std::size_t tet;
+/// Of a cell's box of counts: where the count of a point's tet lies from that of tet 0 of the point's cube. Which tet
+/// it is depends on a few comparisons; they are made without a branch, and `code` holds their answers.
+struct Codes {
+  std::array<std::ptrdiff_t, 64> offset{};
 };
 
-struct FiveOwner {
-  Owner operator()(const Vec3& p) const {
-    const Cell cell{floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)};
-    const Vec3d at = to_double(p);
-    return {cell, owner_tet({at.x - cell[0], at.y - cell[1], at.z - cell[2]}, is_odd(cell))};
-  }
-};
+/// The corners of the cube that owner_tet() asks for, one bit each.
+Codes five_codes() {
+  Codes codes;
+  for (std::size_t tet = 1; tet < kTetsPerCell; ++tet)
+    codes.offset[std::size_t{1} << (tet - 1)] = static_cast<int>(tet);
+  return codes;
+}
+inline unsigned five_code(float x, float y, float z, bool odd) {
+  x = odd ? 1 - x : x;
+  return static_cast<unsigned>(x > y + z) | static_cast<unsigned>(y > x + z) << 1 |
+         static_cast<unsigned>(z > x + y) << 2 | static_cast<unsigned>(x + y + z > 2) << 3;
+}
 
-/// The cube's six faces are the bases of pyramids with their tips at its centre; each pyramid is halves of four tets.
-struct BccOwner {
-  Owner operator()(const Vec3& p) const {
-    Cell cell{floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)};
-    const std::array<float, 3> local{p.x - static_cast<float>(cell[0]) - 0.5F, p.y - static_cast<float>(cell[1]) - 0.5F,
-                                     p.z - static_cast<float>(cell[2]) - 0.5F};
-    const std::array<float, 3> size{std::abs(local[0]), std::abs(local[1]), std::abs(local[2])};
-    const std::size_t axis = size[0] >= size[1] ? (size[0] >= size[2] ? 0 : 2) : (size[1] >= size[2] ? 1 : 2);
+/// The cube's six faces are the bases of pyramids with their tips at its centre; each pyramid is halves of four tets,
+/// and those about a lower face belong to the cell below.
+Codes bcc_codes(const std::array<std::ptrdiff_t, 3>& strides) {
+  Codes codes;
+  for (std::size_t code = 0; code < codes.offset.size(); ++code) {
+    const auto bit = [&](std::size_t i) { return (code >> i & 1U) != 0; };
+    const std::array<bool, 3> below{bit(3), bit(4), bit(5)};
+    const auto larger = [&](std::size_t a, std::size_t b) {  // of two coordinates about the centre
+      return a < b ? bit(a + b - 1) : !bit(a + b - 1);
+    };
+    const std::size_t axis = larger(0, 1) ? (larger(0, 2) ? 0 : 2) : (larger(1, 2) ? 1 : 2);
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    if (local[axis] < 0) --cell[axis];
-    // Sides of the face as in the table: below, right, above, left.
-    const std::size_t side = size[v] >= size[u] ? (local[v] < 0 ? 0 : 2) : (local[u] < 0 ? 3 : 1);
-    return {cell, 4 * axis + side};
+    const std::size_t side = larger(v, u) ? (below[v] ? 0 : 2) : (below[u] ? 3 : 1);  // as the table has them
+    codes.offset[code] = static_cast<std::ptrdiff_t>(4 * axis + side) - (below[axis] ? strides[axis] : 0);
   }
-};
+  return codes;
+}
+inline unsigned bcc_code(float x, float y, float z) {
+  x -= 0.5F, y -= 0.5F, z -= 0.5F;
+  const float ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
+  return static_cast<unsigned>(ax >= ay) | static_cast<unsigned>(ax >= az) << 1 | static_cast<unsigned>(ay >= az) << 2 |
+         static_cast<unsigned>(x < 0) << 3 | static_cast<unsigned>(y < 0) << 4 | static_cast<unsigned>(z < 0) << 5;
+}
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
@@ -138,31 +151,47 @@ Guess FitPoints::guess(const Place& place) const {
     frame.end[i] += whole[i] + 1;
   }
   frame.centre_cell = place.centre_cell;
-  return table_.point_count == 1 ? count_points(frame, FiveOwner()) : count_points(frame, BccOwner());
+  return judge(frame, count_points(frame));
 }
 
-template <class FindOwner>
-Guess FitPoints::count_points(const LatticeFrame& frame, const FindOwner& find_owner) const {
-  const auto cells = [&](std::size_t i) { return static_cast<std::size_t>(frame.end[i] - frame.begin[i]); };
-  const std::size_t tets = table_.tet_count;
-  std::vector<std::uint16_t> counts(cells(0) * cells(1) * cells(2) * tets);
+std::vector<std::uint16_t> FitPoints::count_points(const LatticeFrame& frame) const {
+  const auto cells = [&](std::size_t i) { return static_cast<std::ptrdiff_t>(frame.end[i] - frame.begin[i]); };
+  const auto tets = static_cast<std::ptrdiff_t>(table_.tet_count);
+  const std::array<std::ptrdiff_t, 3> strides{tets, tets * cells(0), tets * cells(0) * cells(1)};
+  const bool is_five = table_.point_count == 1;
+  const Codes codes = is_five ? five_codes() : bcc_codes(strides);
   const auto row = [&](const Vec3d& axis) { return to_float(axis * (1 / frame.cell_size)); };
   const Vec3 ax = row(frame.axes[0]), ay = row(frame.axes[1]), az = row(frame.axes[2]);
-  const Vec3 c = to_float(frame.centre_cell);
+  // From the first cell on coordinates are positive, and their whole parts what the conversion cuts them to.
+  const Vec3 c = to_float(frame.centre_cell - Vec3d{1.0 * frame.begin[0], 1.0 * frame.begin[1], 1.0 * frame.begin[2]});
+  const int first_odd = is_odd(frame.begin);
+  std::vector<std::uint16_t> counts(static_cast<std::size_t>(strides[2] * cells(2)));
   for (const Vec3& p : points_) {
-    const auto [cell, tet] =
-        find_owner({p.x * ax.x + p.y * ax.y + p.z * ax.z + c.x, p.x * ay.x + p.y * ay.y + p.z * ay.z + c.y,
-                    p.x * az.x + p.y * az.y + p.z * az.z + c.z});
-    const auto at = [&](std::size_t i) { return static_cast<std::size_t>(cell[i] - frame.begin[i]); };
-    ++counts[((at(2) * cells(1) + at(1)) * cells(0) + at(0)) * tets + tet];
+    const float x = p.x * ax.x + p.y * ax.y + p.z * ax.z + c.x;
+    const float y = p.x * ay.x + p.y * ay.y + p.z * ay.z + c.y;
+    const float z = p.x * az.x + p.y * az.y + p.z * az.z + c.z;
+    const int ix = static_cast<int>(x), iy = static_cast<int>(y), iz = static_cast<int>(z);
+    const float lx = x - static_cast<float>(ix), ly = y - static_cast<float>(iy), lz = z - static_cast<float>(iz);
+    const bool odd = ((ix + iy + iz + first_odd) & 1) != 0;
+    const unsigned code = is_five ? five_code(lx, ly, lz, odd) : bcc_code(lx, ly, lz);
+    ++counts[static_cast<std::size_t>(ix * strides[0] + iy * strides[1] + iz * strides[2] + codes.offset[code])];
   }
+  return counts;
+}
+
+Guess FitPoints::judge(const LatticeFrame& frame, const std::vector<std::uint16_t>& counts) const {
+  const std::size_t tets = table_.tet_count;
   std::array<double, kMostTetsPerCell> full{};  // points in a tet that is inside
-  for (std::size_t t = 0; t < tets; ++t) full[t] = table_.volume[t] * std::pow(frame.cell_size, 3) / volume_;
+  std::array<int, kMostTetsPerCell> least{};    // and in one that is kept
+  for (std::size_t t = 0; t < tets; ++t) {
+    full[t] = table_.volume[t] * std::pow(frame.cell_size, 3) / volume_;
+    least[t] = std::max(1, ceil_to_int(std::min(rho_min_ * full[t], 1e6)));
+  }
   Guess guess;
   double both = 0, mesh = 0;
   for (std::size_t i = 0; i < counts.size(); i += tets) {
     for (std::size_t t = 0; t < tets; ++t) {
-      if (counts[i + t] == 0 || counts[i + t] < rho_min_ * full[t]) continue;
+      if (counts[i + t] < least[t]) continue;
       guess.tets += 1;
       both += counts[i + t];
       mesh += full[t];

@@ -36,8 +36,9 @@ class FitPoints {
   Guess guess(const Place& place) const;
 
  private:
-  template <class Owner>
-  Guess count_points(const LatticeFrame& frame, const Owner& owner) const;
+  /// Points in every tet of every cell of the frame.
+  std::vector<std::uint16_t> count_points(const LatticeFrame& frame) const;
+  Guess judge(const LatticeFrame& frame, const std::vector<std::uint16_t>& counts) const;
 
   GridFrame grid_;
   const LatticeTable& table_;

@@ -1,7 +1,9 @@
 #include "lattice/passed_voxels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "base/vec.h"
 #include "base/whole.h"
@@ -9,7 +11,8 @@
 namespace tetsoup {
 namespace {
 
-constexpr double kSpacing = 0.6;  ///< Voxels between points on a triangle: hardly a voxel it passes through is missed.
+/// Voxels between points on a triangle: the voxels of two neighbouring points touch, so a triangle hangs together.
+constexpr double kSpacing = 1;
 
 void set_voxel(BitGrid& grid, const Vec3d& at) {
   const int x = floor_to_int(at.x), y = floor_to_int(at.y), z = floor_to_int(at.z);
@@ -17,11 +20,12 @@ void set_voxel(BitGrid& grid, const Vec3d& at) {
   grid.words[grid.row(y, z) + static_cast<std::size_t>(x >> 6)] |= std::uint64_t{1} << (x & 63);
 }
 
-/// Points at most kSpacing apart, corners and edges included.
+/// Points at most kSpacing apart, but for the corners.
 void draw_triangle(BitGrid& grid, const std::array<Vec3d, 3>& p) {
   const Vec3d u = p[1] - p[0], v = p[2] - p[0];
-  const double longest = std::sqrt(std::max({squared_length(u), squared_length(v), squared_length(p[2] - p[1])}));
-  const int n = std::max(1, ceil_to_int(longest / kSpacing));
+  const double longest = std::max({squared_length(u), squared_length(v), squared_length(p[2] - p[1])});
+  if (longest <= kSpacing * kSpacing) return;
+  const int n = ceil_to_int(std::sqrt(longest) / kSpacing);
   for (int i = 0; i <= n; ++i)
     for (int j = 0; i + j <= n; ++j)
       set_voxel(grid, p[0] + u * (static_cast<double>(i) / n) + v * (static_cast<double>(j) / n));
@@ -31,13 +35,15 @@ void draw_triangle(BitGrid& grid, const std::array<Vec3d, 3>& p) {
 
 BitGrid passed_voxels(const BitGrid& inside, const CleanSoup& soup, StageWatch& watch) {
   BitGrid grid = inside;
-  const auto voxel_of = [&](std::uint32_t vertex) {
-    return (to_double(soup.soup.vertices[vertex]) - grid.frame.origin) * (1 / grid.frame.voxel_size) +
-           Vec3d{0.5, 0.5, 0.5};
-  };
+  std::vector<Vec3d> points;
+  points.reserve(soup.soup.vertices.size());
+  for (const Vec3& v : soup.soup.vertices) {
+    points.push_back((to_double(v) - grid.frame.origin) * (1 / grid.frame.voxel_size) + Vec3d{0.5, 0.5, 0.5});
+    set_voxel(grid, points.back());
+  }
   std::size_t done = 0;
   for (const Triangle& t : soup.soup.triangles) {
-    draw_triangle(grid, {voxel_of(t[0]), voxel_of(t[1]), voxel_of(t[2])});
+    draw_triangle(grid, {points[t[0]], points[t[1]], points[t[2]]});
     if (++done % 1024 == 0) watch.poll();
   }
   watch.throw_if_stopped();

@@ -9,7 +9,7 @@
 namespace tetsoup {
 namespace {
 
-constexpr double kSpacing = 0.6;  ///< Voxels between the points of a face: hardly a voxel in the face is missed.
+constexpr double kSpacing = 0.7;  ///< Voxels between the points of a face: hardly a voxel in the face is missed.
 
 /// Visits the voxels of points spread over a triangle, n to a side, until `visit` says stop.
 template <class Visit>
@@ -41,7 +41,10 @@ class FaceContacts {
     const int n = 1 + static_cast<int>(longest / kSpacing);
     const bool is_plain = pieces_.count(face.a) == 1 && pieces_.count(face.b) == 1;
     const std::size_t begin = out_.size();
+    std::array<int, 3> last{-1, -1, -1};
     const auto visit = [&](int x, int y, int z) {
+      if (last == std::array{x, y, z}) return true;
+      last = {x, y, z};
       if (!grid.contains(x, y, z) || !inside_.test(x, y, z)) return true;
       add({pieces_.piece_at(face.a, x, y, z), pieces_.piece_at(face.b, x, y, z), 1}, begin);
       return !is_plain;

@@ -74,11 +74,11 @@ std::size_t store_copies(Candidates& candidates, Copies& copies, const CopyVerti
   for (std::size_t i = 0; i < numbered.tets.size(); ++i) {
     const CopiedTet& tet = numbered.tets[i];
     if (kept[tet.tet] == 0) {
-      kept[tet.tet] = 1;
+      kept[tet.tet] = candidates.kept[tet.tet];
       mesh.tets[tet.tet] = tet.vertices;
       candidates.density[tet.tet] = densities[i];
     } else {
-      kept.push_back(1);
+      kept.push_back(candidates.kept[tet.tet]);
       mesh.tets.push_back(tet.vertices);
       candidates.density.push_back(densities[i]);
     }
@@ -97,8 +97,8 @@ double smallest_tet(const TetMesh& mesh, const GridFrame& grid) {
 
 }  // namespace
 
-std::size_t separate(Candidates& candidates, const BitGrid& inside, double rho_min, StageWatch& watch) {
-  if (smallest_tet(candidates.mesh, inside.frame) < kLeastTet) return 0;
+Separated separate(Candidates& candidates, const BitGrid& inside, double rho_min, StageWatch& watch) {
+  if (smallest_tet(candidates.mesh, inside.frame) < kLeastTet) return {};
   const TetPieces pieces(candidates, candidates.density, inside, watch);
   const std::vector<SharedFace> faces = shared_faces(candidates.mesh);
   const PieceGraph graph(candidates.mesh, faces, pieces, inside, watch);
@@ -110,7 +110,7 @@ std::size_t separate(Candidates& candidates, const BitGrid& inside, double rho_m
     numbered = number_vertices(candidates, copies, graph);
   }
   attach_others(candidates, numbered);
-  return store_copies(candidates, copies, numbered);
+  return {store_copies(candidates, copies, numbered), numbered.sources.size()};
 }
 
 }  // namespace tetsoup

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "base/tet_geometry.h"
 #include "lattice/boundary_only.h"

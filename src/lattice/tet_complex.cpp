@@ -9,7 +9,7 @@ namespace tetsoup {
 TetComplex::TetComplex(Candidates& candidates) : candidates_(candidates) {
   const TetMesh& mesh = candidates.mesh;
   neighbours_.assign(mesh.tets.size(), {kNoTet, kNoTet, kNoTet, kNoTet});
-  is_left_out_.assign(mesh.tets.size(), 0);
+  is_left_over_.assign(mesh.tets.size(), 0);
   tet_mark_.assign(mesh.tets.size(), 0);
   vertex_mark_.assign(mesh.vertices.size(), 0);
   storage_ = Groups<std::uint32_t>(mesh.vertices.size(), [&](const auto& put) {
@@ -49,16 +49,10 @@ void TetComplex::join_faces() {
 void TetComplex::pair_faces(std::span<FaceSide> run) {
   if (run.size() > 2) {
     std::stable_partition(run.begin(), run.end(), [&](const FaceSide& s) { return candidates_.kept[s.slot / 4] != 0; });
-    for (const FaceSide& side : run.subspan(2)) leave_out(static_cast<std::uint32_t>(side.slot / 4));
+    for (const FaceSide& side : run.subspan(2)) is_left_over_[side.slot / 4] = 1;
   }
   neighbours_[run[0].slot / 4][run[0].slot % 4] = static_cast<std::uint32_t>(run[1].slot / 4);
   neighbours_[run[1].slot / 4][run[1].slot % 4] = static_cast<std::uint32_t>(run[0].slot / 4);
-}
-
-void TetComplex::leave_out(std::uint32_t t) {
-  if (is_kept(t)) ++dropped_at_faces_;
-  candidates_.kept[t] = 0;
-  is_left_out_[t] = 1;
 }
 
 double TetComplex::volume(std::uint32_t t) const {
@@ -159,7 +153,7 @@ std::size_t TetComplex::double_vertex(std::uint32_t v) {
     ++doubled;
   }
   if (doubled > 0)
-    for (const std::uint32_t t : std::span(all.begin(), absent_end)) is_left_out_[t] = 1;
+    for (const std::uint32_t t : std::span(all.begin(), absent_end)) is_left_over_[t] = 1;
   return doubled;
 }
 

@@ -16,7 +16,7 @@ namespace tetsoup {
 inline constexpr std::uint32_t kNoTet = std::numeric_limits<std::uint32_t>::max();
 
 /// Adjacency is by vertex indices, never by position: copies of a tet in one place have vertices of their own. A face
-/// has two tets at most; where more share it, the first two in the mesh are partners, and the others are left out.
+/// has two tets at most; where more share it, the first two in the mesh are partners, and the others are left over.
 class TetComplex {
  public:
   explicit TetComplex(Candidates& candidates);
@@ -36,7 +36,9 @@ class TetComplex {
   bool is_kept(std::uint32_t t) const { return t != kNoTet && candidates_.kept[t] != 0; }
   bool is_held(std::uint32_t t) const { return candidates_.kept[t] == kHeld; }
   /// Whether the tet may be added: not where a vertex of it was doubled, since it would fit one side only.
-  bool is_addable(std::uint32_t t) const { return candidates_.kept[t] == 0 && !is_left_out_[t]; }
+  bool is_addable(std::uint32_t t) const { return candidates_.kept[t] == 0 && !is_left_over_[t]; }
+  /// Whether two other tets share a face of this one.
+  bool is_left_over(std::uint32_t t) const { return is_left_over_[t] != 0; }
   std::uint8_t state(std::uint32_t t) const { return candidates_.kept[t]; }
   void set_state(std::uint32_t t, std::uint8_t state) { candidates_.kept[t] = state; }
 
@@ -51,9 +53,6 @@ class TetComplex {
   /// vertices that took.
   std::size_t double_vertex(std::uint32_t v);
 
-  /// Tets that were in the mesh, but a third one at a face.
-  std::size_t dropped_at_faces() const { return dropped_at_faces_; }
-
  private:
   struct FaceSide {
     std::uint64_t others;  ///< The upper two corners, packed.
@@ -61,7 +60,6 @@ class TetComplex {
   };
   void join_faces();
   void pair_faces(std::span<FaceSide> run);
-  void leave_out(std::uint32_t t);
   std::size_t reached_if_ball(std::uint32_t v, std::uint32_t start) const;
   void move_to_vertex(std::uint32_t t, std::uint32_t from, std::uint32_t to);
   void mark_part(std::uint32_t v, std::uint32_t start) const;
@@ -70,8 +68,7 @@ class TetComplex {
   std::vector<std::array<std::uint32_t, 4>> neighbours_;
   Groups<std::uint32_t> storage_;
   std::vector<std::span<std::uint32_t>> around_;  ///< Into `storage_`, so that a group can be split where it lies.
-  std::vector<std::uint8_t> is_left_out_;
-  std::size_t dropped_at_faces_ = 0;
+  std::vector<std::uint8_t> is_left_over_;
   // Marks of the last walk around a vertex.
   mutable std::vector<std::uint32_t> tet_mark_, vertex_mark_, stack_;
   mutable std::uint32_t walk_ = 0;

@@ -23,45 +23,47 @@ int find_bit(const std::uint64_t* row, int x, int end, bool value) {
   return end;
 }
 
-/// Where dot(normal, p) + offset >= 0; unit normal.
-struct Plane {
-  Vec3d normal;
-  double offset = 0;
-  double reach = 0;  ///< Half the width of a voxel across the plane.
-};
-
-std::array<Plane, 4> planes_of(const TetCorners& p) {
-  std::array<Plane, 4> planes;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto& face = kTetFaces[i];
-    const Vec3d a = p[static_cast<std::size_t>(face[0])];
-    Vec3d n = cross(p[static_cast<std::size_t>(face[2])] - a, p[static_cast<std::size_t>(face[1])] - a);
-    n = n * (1 / length(n));
-    planes[i] = {n, -dot(n, a), 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z))};
-  }
-  return planes;
-}
-
 struct Range {
   int begin, end;
 };
 
-/// The voxels of a row within all planes moved outward by `margin` of their reach.
-Range narrowed(const std::array<Plane, 4>& planes, Range range, int y, int z, double margin) {
-  double low = range.begin, high = range.end - 1;
-  for (const Plane& plane : planes) {
-    const double rest = plane.normal.y * y + plane.normal.z * z + plane.offset + margin * plane.reach + kRounding;
-    if (plane.normal.x > kParallel) {
-      low = std::max(low, -rest / plane.normal.x);
-    } else if (plane.normal.x < -kParallel) {
-      high = std::min(high, -rest / plane.normal.x);
-    } else if (rest < 0) {
-      return {range.begin, range.begin};
+/// The voxels of a row that lie in a tet grown by some share of a voxel. What a plane leaves of a row begins or ends at
+/// x = y * p.y + z * p.z + p.x.
+class TetRows {
+ public:
+  TetRows(const TetCorners& p, double margin) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& face = kTetFaces[i];
+      const Vec3d a = p[static_cast<std::size_t>(face[0])];
+      Vec3d n = cross(p[static_cast<std::size_t>(face[2])] - a, p[static_cast<std::size_t>(face[1])] - a);
+      n = n * (1 / length(n));
+      // Inside is where dot(n, p) + offset >= 0. Half a voxel across the plane is what its cube reaches.
+      const double reach = 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+      const double offset = -dot(n, a) + margin * reach + kRounding;
+      if (std::abs(n.x) < kParallel) {
+        parallel_[parallels_++] = {offset, n.y, n.z};
+      } else {
+        (n.x > 0 ? low_[lows_++] : high_[highs_++]) = {-offset / n.x, -n.y / n.x, -n.z / n.x};
+      }
     }
   }
-  if (low > high) return {range.begin, range.begin};
-  return {ceil_to_int(low), floor_to_int(high) + 1};
-}
+
+  Range narrowed(Range range, int y, int z) const {
+    double low = range.begin, high = range.end - 1;
+    for (std::size_t i = 0; i < lows_; ++i) low = std::max(low, at(low_[i], y, z));
+    for (std::size_t i = 0; i < highs_; ++i) high = std::min(high, at(high_[i], y, z));
+    for (std::size_t i = 0; i < parallels_; ++i)
+      if (at(parallel_[i], y, z) < 0) return {range.begin, range.begin};
+    if (low > high) return {range.begin, range.begin};
+    return {ceil_to_int(low), floor_to_int(high) + 1};
+  }
+
+ private:
+  static double at(const Vec3d& p, int y, int z) { return p.x + p.y * y + p.z * z; }
+
+  std::array<Vec3d, 4> low_, high_, parallel_;
+  std::size_t lows_ = 0, highs_ = 0, parallels_ = 0;
+};
 
 }  // namespace
 
@@ -72,52 +74,57 @@ TetCorners corners_in_voxels(const TetMesh& mesh, std::size_t tet, const GridFra
   return p;
 }
 
-/// Finds the pieces of one tet: runs of voxels along x, joined from row to row.
+/// Finds the pieces of one tet after the other: runs of voxels along x, joined from row to row.
 class TetPieces::Finder {
  public:
-  Finder(const TetCorners& corners, const BitGrid& inside) : inside_(inside), planes_(planes_of(corners)) {
+  explicit Finder(const BitGrid& inside) : inside_(inside) {}
+
+  /// `voxels`: those that the tet holds.
+  Found find(const TetCorners& corners, double voxels) {
+    box_of(corners);
+    collect(TetRows(corners, 1));
+    Found found;
+    if (runs_.empty()) return found;
+    name_runs(found);
+    if (found.voxels.size() == 1) {
+      found.voxels[0] = static_cast<std::uint32_t>(voxels);
+      return found;
+    }
+    const TetRows own(corners, 0);
+    for (const Run& run : runs_) {
+      const Range range = own.narrowed({run.begin, run.end}, run.y, run.z);
+      found.voxels[run.piece] += static_cast<std::uint32_t>(std::max(0, range.end - range.begin));
+    }
+    found.runs = runs_;
+    return found;
+  }
+
+ private:
+  void box_of(const TetCorners& corners) {
     const Vec3d lo = min(min(corners[0], corners[1]), min(corners[2], corners[3]));
     const Vec3d hi = max(max(corners[0], corners[1]), max(corners[2], corners[3]));
     const auto range = [&](double low, double high, std::size_t axis) {
       const int begin = std::max(0, ceil_to_int(low - 0.5 - kRounding));
-      return Range{begin, std::max(begin, std::min(inside.frame.size[axis], floor_to_int(high + 0.5 + kRounding) + 1))};
+      return Range{begin,
+                   std::max(begin, std::min(inside_.frame.size[axis], floor_to_int(high + 0.5 + kRounding) + 1))};
     };
     x_ = range(lo.x, hi.x, 0);
     y_ = range(lo.y, hi.y, 1);
     z_ = range(lo.z, hi.z, 2);
   }
 
-  Found find() {
-    collect();
-    Unions unions(runs_.size());
-    join_rows(unions);
-    Found found;
-    std::vector<std::uint32_t> name(runs_.size());
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-      const std::size_t root = unions.find(r);
-      if (root == r) {
-        name[r] = static_cast<std::uint32_t>(found.voxels.size());
-        found.voxels.push_back(0);
-      }
-      runs_[r].piece = name[root];
-      found.voxels[name[root]] += owned(runs_[r]);
-    }
-    if (found.voxels.size() > 1) found.runs = std::move(runs_);
-    return found;
-  }
-
- private:
   std::size_t row(int y, int z) const {
     return static_cast<std::size_t>(z - z_.begin) * static_cast<std::size_t>(y_.end - y_.begin) +
            static_cast<std::size_t>(y - y_.begin);
   }
 
-  void collect() {
+  void collect(const TetRows& rows) {
+    runs_.clear();
     row_begin_.assign(1, 0);
     for (int z = z_.begin; z < z_.end; ++z) {
       for (int y = y_.begin; y < y_.end; ++y) {
         const std::uint64_t* bits = inside_.words.data() + inside_.row(y, z);
-        const Range range = narrowed(planes_, x_, y, z, 1);
+        const Range range = rows.narrowed(x_, y, z);
         for (int x = range.begin; x < range.end;) {
           const int begin = find_bit(bits, x, range.end, true);
           x = find_bit(bits, begin, range.end, false);
@@ -129,7 +136,8 @@ class TetPieces::Finder {
   }
 
   /// Each row with the four neighbours that came before it.
-  void join_rows(Unions& unions) const {
+  void name_runs(Found& found) {
+    Unions unions(runs_.size());
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       const Run& run = runs_[r];
       if (run.y > y_.begin) join_with(r, run.y - 1, run.z, unions);
@@ -137,19 +145,19 @@ class TetPieces::Finder {
       for (int y = std::max(y_.begin, run.y - 1); y <= std::min(y_.end - 1, run.y + 1); ++y)
         join_with(r, y, run.z - 1, unions);
     }
+    for (std::size_t r = 0; r < runs_.size(); ++r) {
+      // The first of a set stands for it, so it has its name by now.
+      const std::size_t root = unions.find(r);
+      runs_[r].piece = root == r ? static_cast<std::uint32_t>(found.voxels.size()) : runs_[root].piece;
+      if (root == r) found.voxels.push_back(0);
+    }
   }
   void join_with(std::size_t r, int y, int z, Unions& unions) const {
     for (std::size_t i = row_begin_[row(y, z)]; i < row_begin_[row(y, z) + 1]; ++i)
       if (runs_[i].begin <= runs_[r].end && runs_[r].begin <= runs_[i].end) unions.join(i, r);
   }
 
-  std::uint32_t owned(const Run& run) const {
-    const Range range = narrowed(planes_, {run.begin, run.end}, run.y, run.z, 0);
-    return static_cast<std::uint32_t>(std::max(0, range.end - range.begin));
-  }
-
   const BitGrid& inside_;
-  std::array<Plane, 4> planes_;
   Range x_{}, y_{}, z_{};
   std::vector<Run> runs_;
   std::vector<std::size_t> row_begin_;
@@ -161,9 +169,12 @@ TetPieces::TetPieces(const Candidates& candidates, const std::vector<float>& den
   const TetMesh& mesh = candidates.mesh;
   std::vector<Found> found(mesh.tets.size());
   parallel_for(static_cast<std::int64_t>(mesh.tets.size()), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
+    Finder finder(inside);
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
-      const bool is_mixed = density[t] > 0 && density[t] < 1;
-      if (is_mixed) found[t] = Finder(corners_in_voxels(mesh, t, inside.frame), inside).find();
+      if (density[t] > 0 && density[t] < 1) {
+        const TetCorners corners = corners_in_voxels(mesh, t, inside.frame);
+        found[t] = finder.find(corners, static_cast<double>(density[t]) * signed_volume(corners));
+      }
       if (found[t].voxels.empty() && (density[t] > 0 || candidates.kept[t])) found[t].voxels.push_back(0);
     }
   });

@@ -11,9 +11,11 @@
 namespace tetsoup {
 namespace {
 
-constexpr double kLeastLength = 1.5;  ///< Lattice edges; a shorter part may be lost.
-constexpr float kThick = 0.9F;        ///< Share of a tet; what fills one is not thin there.
-constexpr float kTrace = 0.02F;       ///< Share of a tet; a part that has less of it is not in it.
+/// Lattice edges, between centres of tets: a shorter stretch without cover, that is one to some 1.5 edges long, is
+/// left.
+constexpr double kLeastLength = 0.5;
+constexpr float kThick = 0.9F;      ///< Share of a tet; what fills one is not thin there.
+constexpr float kTrace = 0.02F;     ///< Share of a tet; a part that has less of it is not in it.
 constexpr float kOfFullest = 0.5F;  ///< A thin part keeps the tets it fills at least half as much as its fullest near.
 constexpr float kStep = 0.05F;      ///< Cost of a tet on the way from one kept tet to another, besides its empty share.
 
@@ -43,14 +45,20 @@ class ThinParts {
 
   std::size_t keep(const BitGrid& inside, const BitGrid& passed, StageWatch& watch) {
     std::size_t count = 0;
-    find_thin_tets();
-    if (find_bare_tets()) {
+    find_bare_tets();
+    Unions bare(mesh_.tets.size());
+    for (const SharedFace& f : faces_)
+      if (is_bare_[f.a] && is_bare_[f.b]) bare.join(f.a, f.b);
+    if (find_long([](std::size_t t) { return t; }, bare)) {
       const TetPieces pieces(c_, c_.passed, passed, watch);
       const PieceGraph graph(mesh_, faces_, pieces, passed, watch);
-      if (find_parts(pieces, graph)) {
+      Unions runs(pieces.size());
+      for (const Contact& c : graph.contacts())
+        if (is_bare_[pieces.tet_of(c.a)] && is_bare_[pieces.tet_of(c.b)]) runs.join(c.a, c.b);
+      if (find_long([&](std::size_t piece) { return pieces.tet_of(static_cast<std::uint32_t>(piece)); }, runs)) {
         count += keep_bare();
         Unions parts = kept_parts();
-        count += join(pieces, graph, parts, thin_parts(pieces, parts));
+        count += join(pieces, graph, parts, thin_parts(parts));
       }
     }
     Unions parts = kept_parts();
@@ -74,40 +82,29 @@ class ThinParts {
     return sum;
   }
 
-  /// Tets that hold something, with nothing thick around.
-  void find_thin_tets() {
-    std::vector<std::uint8_t> thick(mesh_.vertices.size(), 0);
-    for_each_corner([&](std::size_t t, std::uint32_t v) { thick[v] |= c_.density[t] >= kThick; });
-    is_thin_.assign(mesh_.tets.size(), 0);
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) is_thin_[t] = c_.passed[t] >= kTrace && !has_corner(t, thick);
-  }
   bool has_corner(std::size_t t, const std::vector<std::uint8_t>& marked) const {
     const Tet& tet = mesh_.tets[t];
     return std::any_of(tet.begin(), tet.end(), [&](std::uint32_t v) { return marked[v] != 0; });
   }
 
-  /// Thin tets with no kept tet around; false if there are none.
-  bool find_bare_tets() {
+  /// Tets that hold something, with nothing thick and no kept tet around.
+  void find_bare_tets() {
     std::vector<std::uint8_t> covered(mesh_.vertices.size(), 0);
-    for_each_corner([&](std::size_t t, std::uint32_t v) { covered[v] |= c_.kept[t]; });
+    for_each_corner([&](std::size_t t, std::uint32_t v) { covered[v] |= c_.kept[t] != 0 || c_.density[t] >= kThick; });
     is_bare_.assign(mesh_.tets.size(), 0);
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) is_bare_[t] = is_thin_[t] && !has_corner(t, covered);
-    return std::find(is_bare_.begin(), is_bare_.end(), 1) != is_bare_.end();
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) is_bare_[t] = c_.passed[t] >= kTrace && !has_corner(t, covered);
   }
 
-  /// Marks the pieces and tets of thin parts that are long enough; false if there are none.
-  bool find_parts(const TetPieces& pieces, const PieceGraph& graph) {
-    Unions parts(pieces.size());
-    const auto is_thin = [&](std::uint32_t piece) { return is_thin_[pieces.tet_of(piece)] != 0; };
-    for (const Contact& c : graph.contacts())
-      if (is_thin(c.a) && is_thin(c.b)) parts.join(c.a, c.b);
-    std::vector<Extent> extents(pieces.size());
-    for (std::uint32_t p = 0; p < pieces.size(); ++p)
-      if (is_thin(p)) extents[parts.find(p)].add(centre(pieces.tet_of(p)));
+  /// Marks the bare tets of sets that are long enough, sets of things that lie in tets; false if there are none.
+  template <class TetOf>
+  bool find_long(const TetOf& tet_of, Unions& sets) {
+    std::vector<Extent> extents(sets.size());
+    for (std::size_t i = 0; i < sets.size(); ++i)
+      if (is_bare_[tet_of(i)]) extents[sets.find(i)].add(centre(tet_of(i)));
     const double least = kLeastLength * mean_edge(mesh_);
     in_part_.assign(mesh_.tets.size(), 0);
-    for (std::uint32_t p = 0; p < pieces.size(); ++p)
-      if (extents[parts.find(p)].diagonal() >= least) in_part_[pieces.tet_of(p)] = 1;
+    for (std::size_t i = 0; i < sets.size(); ++i)
+      if (extents[sets.find(i)].diagonal() >= least) in_part_[tet_of(i)] = 1;
     return std::find(in_part_.begin(), in_part_.end(), 1) != in_part_.end();
   }
 
@@ -118,11 +115,11 @@ class ThinParts {
     });
     std::size_t count = 0;
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-      if (!in_part_[t] || !is_bare_[t]) continue;
+      if (!in_part_[t]) continue;
       float most = 0;
       for (const std::uint32_t v : mesh_.tets[t]) most = std::max(most, fullest[v]);
       if (c_.passed[t] < kOfFullest * most) continue;
-      c_.kept[t] = 1;
+      c_.kept[t] = kHeld;
       ++count;
     }
     return count;
@@ -140,10 +137,10 @@ class ThinParts {
     return count;
   }
   /// Those that hold a thin part and nothing thick, by their first tet.
-  std::vector<std::uint8_t> thin_parts(const TetPieces& pieces, Unions& parts) const {
+  std::vector<std::uint8_t> thin_parts(Unions& parts) const {
     std::vector<std::uint8_t> is_thin(mesh_.tets.size(), 0);
-    for (std::uint32_t p = 0; p < pieces.size(); ++p)
-      if (const std::size_t t = pieces.tet_of(p); in_part_[t] && c_.kept[t]) is_thin[parts.find(t)] = 1;
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
+      if (in_part_[t] && c_.kept[t]) is_thin[parts.find(t)] = 1;
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
       if (c_.kept[t] && c_.density[t] >= kThick) is_thin[parts.find(t)] = 0;
     return is_thin;
@@ -205,9 +202,8 @@ class ThinParts {
   std::size_t keep_way(std::uint32_t piece, const TetPieces& pieces) {
     std::size_t count = 0;
     for (; before_[piece] != kNobody; piece = before_[piece]) {
-      std::uint8_t& kept = c_.kept[pieces.tet_of(piece)];
-      count += kept == 0;
-      kept = 1;
+      c_.kept[pieces.tet_of(piece)] = kHeld;
+      ++count;
     }
     return count;
   }
@@ -217,10 +213,10 @@ class ThinParts {
   Candidates& c_;
   const TetMesh& mesh_;
   std::vector<SharedFace> faces_;
-  std::vector<std::uint8_t> is_thin_, is_bare_;  ///< Of every tet,
-  std::vector<std::uint8_t> in_part_;            ///< and whether it belongs to a thin part of some length.
-  std::vector<float> cost_;                      ///< Of every piece: of the way there from the nearest kept tet,
-  std::vector<std::uint32_t> origin_, before_;   ///< its first piece and the one before.
+  std::vector<std::uint8_t> is_bare_;           ///< Of every tet,
+  std::vector<std::uint8_t> in_part_;           ///< and whether it belongs to a bare stretch of some length.
+  std::vector<float> cost_;                     ///< Of every piece: of the way there from the nearest kept tet,
+  std::vector<std::uint32_t> origin_, before_;  ///< its first piece and the one before.
 };
 
 }  // namespace
