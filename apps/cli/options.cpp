@@ -4,8 +4,8 @@
 
 #include "angles.h"
 #include "arguments.h"
-#include "memory.h"
 #include "tetsoup/error.h"
+#include "tetsoup/io.h"
 
 namespace tetsoup::cli {
 
@@ -18,6 +18,8 @@ constexpr Range kCells{.low = 1, .high = 1024, .words = "a whole number from 1 t
 constexpr Range kShare{.low = 0, .high = 1, .low_included = false, .words = "a number above 0, at most 1"};
 constexpr Range kPasses{.low = 0, .high = 1000, .words = "a whole number from 0 to 1000"};
 constexpr Range kAngle{.low = 0, .high = 60, .high_included = false, .words = "degrees from 0 to below 60"};
+constexpr Range kObtuse{.low = 90, .high = 180, .words = "degrees from 90 to 180"};
+constexpr Range kRatio{.low = 1, .words = "a number from 1"};
 constexpr Range kThreads{.low = 0, .high = 4096, .words = "a whole number from 0 (all cores) to 4096"};
 
 constexpr const char* kGridGroup = "Voxel grid";
@@ -153,18 +155,32 @@ void add_smooth_flags(CLI::App& app, SmoothOptions& options) {
   CLI::Option* const passes = add_flag(
       app, "--passes", "N",
       [&options](const std::string& text) { options.passes = parse_whole("--passes", text, kPasses); },
-      "Smoothing passes, 0..1000; 0 leaves the lattice as it is (5)");
+      "Smoothing passes, 0..1000; 0 leaves the lattice as it is (6)");
+  CLI::Option* const snap =
+      add_choice<Snap>(app, "--snap", options.snap, {{"on", Snap::Surface}, {"off", Snap::Off}},
+                       "Draw the boundary to the surface of the inside voxels; off fairs\nit only and keeps the "
+                       "lattice's volume (on)");
   CLI::Option* const strength = add_flag(
       app, "--strength", "X",
       [&options](const std::string& text) { options.strength = parse_number("--strength", text, kPositive); },
-      "Strength of a pass, above 0 (1)");
+      "Strength of a pass, above 0; with --snap off (1)");
   CLI::Option* const angle = add_flag(
       app, "--min-angle", "DEG",
       [&options](const std::string& text) {
         options.min_dihedral = to_radians(parse_number("--min-angle", text, kAngle));
       },
-      "Dihedral angle that smoothing never goes below, 0..60 (15)");
-  for (CLI::Option* const option : {passes, strength, angle}) option->group(kSmoothGroup);
+      "Dihedral angle that smoothing never goes below, 0..60 (25)");
+  CLI::Option* const obtuse = add_flag(
+      app, "--max-angle", "DEG",
+      [&options](const std::string& text) {
+        options.max_dihedral = to_radians(parse_number("--max-angle", text, kObtuse));
+      },
+      "Dihedral angle that smoothing never goes beyond, 90..180 (155)");
+  CLI::Option* const ratio = add_flag(
+      app, "--max-edge-ratio", "X",
+      [&options](const std::string& text) { options.max_edge_ratio = parse_number("--max-edge-ratio", text, kRatio); },
+      "Longest over shortest edge of a tet that smoothing never goes\nbeyond, from 1 (3.5)");
+  for (CLI::Option* const option : {passes, snap, strength, angle, obtuse, ratio}) option->group(kSmoothGroup);
 }
 
 void add_quiet_flag(CLI::App& app, bool& quiet) {

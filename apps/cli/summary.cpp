@@ -61,6 +61,7 @@ std::string describe_care(const LatticeReport& lattice) {
   const auto say = [&](std::size_t count, std::string_view noun, std::string_view what) {
     if (count > 0) done.push_back(counted(count, noun) + " " + std::string(what));
   };
+  say(lattice.evened_tets, "tet", "dropped or added to even the stairs");
   say(lattice.thin_tets, "tet", "kept for thin parts");
   say(lattice.enclosing_tets, "tet", "added to enclose every vertex");
   say(lattice.doubled_tets, "tet", "doubled to keep apart what does not touch");
@@ -222,6 +223,9 @@ std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& vo
   if (volume.cavity_voxels > 0)
     text += fmt::format(", {} of them in cavities that the soup encloses (--cavities keep leaves those hollow)",
                         grouped(volume.cavity_voxels));
+  text += volume.largest_closure > 0
+              ? fmt::format(". The largest hole that was closed is about {:.3g} wide", volume.largest_closure)
+              : std::string(". No hole had to be closed");
   return text + ".\n";
 }
 

@@ -1,6 +1,8 @@
 // tetsoup::io: files in and out. Everything throws IoError with the file's name and the line, byte or system reason.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -92,5 +94,11 @@ struct PreviewScene {
 /// Draws the four panels with a software rasteriser into a PNG of the given width. Atomic. Same bytes for the same
 /// scene.
 void write_preview(const std::filesystem::path& path, const PreviewScene& scene, int width = 1600);
+
+// --- The machine ----------------------------------------------------------------------------------------------------
+
+/// Bytes that a run may take without driving the machine into swap or the kernel into killing it: what is free now, for
+/// the machine and for the control group this process runs in, less a margin; nothing where the system does not say.
+std::optional<std::size_t> usable_memory();
 
 }  // namespace tetsoup

@@ -96,6 +96,7 @@ class CellJudge {
       filled.densities.push_back(static_cast<float>(counts[t].inside) / static_cast<float>(counts[t].total));
   }
 
+  /// Of tets that are wholly inside or outside one voxel stands for all.
   CellCounts count_voxels(const Cell& cell, const VoxelRange& range) const {
     CellCounts counts{};
     if (is_five_) {
@@ -108,7 +109,8 @@ class CellJudge {
       const Vec3d lo = min(min(corners[0], corners[1]), min(corners[2], corners[3]));
       const Vec3d hi = max(max(corners[0], corners[1]), max(corners[2], corners[3]));
       const VoxelRange box = voxels_in(lower_corner(cell) + lo, lower_corner(cell) + hi, 0);
-      counts[t] = tet_rows_.count(cell, t, box);
+      const Content content = inside_.content(box);
+      counts[t] = content == Content::Mixed ? tet_rows_.count(cell, t, box) : VoxelCount{1, content == Content::Inside};
     }
     return counts;
   }

@@ -9,6 +9,7 @@
 #include "base/require.h"
 #include "lattice/clean_topology.h"
 #include "lattice/cover.h"
+#include "lattice/even_out.h"
 #include "lattice/gather_candidates.h"
 #include "lattice/passed_voxels.h"
 #include "lattice/separate.h"
@@ -113,9 +114,9 @@ Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
     fill.by_soup = true;
     fill.crumbs = false;
   }
+  fill.dense_tets = filled.kept_tets;
   if (!fill.by_soup && !fill.crumbs && passed_)
     add_passed(find_densities(*passed_blocks_, fill.frame, table_, options_.rho_min, watch_), table_.tet_count, filled);
-  fill.dense_tets = filled.kept_tets;
   fill.sampled_tets = filled.sampled_tets;
   fill.candidates = gather_candidates(filled, fill.frame, table_);
   if (!fill.crumbs) mend(fill);
@@ -128,6 +129,8 @@ void Filler::mend(Fill& fill) {
   Candidates& candidates = fill.candidates;
   LatticeReport& report = fill.mended;
   if (options_.cover == Cover::Inside && !fill.by_soup) keep_inside_tets(candidates);
+  if (options_.stairs == Stairs::Even && options_.cover != Cover::Inside && !fill.by_soup)
+    report.evened_tets = even_out(candidates, options_.rho_min);
   if (options_.thin == Thin::Keep && !candidates.passed.empty())
     report.thin_tets = keep_thin_parts(candidates, volume_.inside, *passed_, watch_);
   if (options_.cover == Cover::Enclose)

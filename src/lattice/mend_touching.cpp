@@ -56,7 +56,6 @@ class Mender {
   double score(double cost, double mended) const;
   void consider_doubling(const Star& star, std::uint32_t v);
   std::vector<std::uint32_t> vertices_of(const std::vector<std::uint32_t>& tets) const;
-  int count_mended(const std::vector<std::uint32_t>& tets, const std::vector<std::uint32_t>& vertices);
   void flip(const std::vector<std::uint32_t>& tets);
   void judge_again(const std::vector<std::uint32_t>& vertices);
   void carry_out(std::uint32_t v);
@@ -94,17 +93,6 @@ void Mender::flip(const std::vector<std::uint32_t>& tets) {
   for (const std::uint32_t t : tets) complex_.set_state(t, complex_.is_kept(t) ? 0 : 1);
 }
 
-/// How many bad vertices fewer there are if the tets are flipped.
-int Mender::count_mended(const std::vector<std::uint32_t>& tets, const std::vector<std::uint32_t>& vertices) {
-  std::vector<std::uint8_t> states;
-  for (const std::uint32_t t : tets) states.push_back(complex_.state(t));
-  flip(tets);
-  int mended = 0;
-  for (const std::uint32_t v : vertices) mended += is_bad_[v] - (complex_.is_sound(v) ? 0 : 1);
-  for (std::size_t i = 0; i < tets.size(); ++i) complex_.set_state(tets[i], states[i]);
-  return mended;
-}
-
 /// Whether the tets would bridge a clear gap, though the vertex can be doubled instead.
 bool Mender::is_thin_air(const std::vector<std::uint32_t>& tets) const {
   if (!can_double_ || complex_.is_kept(tets[0])) return false;
@@ -122,17 +110,23 @@ double Mender::score(double cost, double mended) const {
   return mended > 0 ? cost / mended : kInfinity;
 }
 
-/// Takes the flip as the best so far if it is.
+/// Takes the flip as the best so far if it is. At first it may mend all bad vertices around, and one fewer for each
+/// that turns out to be unsound with it.
 void Mender::consider(const std::vector<std::uint32_t>& tets) {
   double cost = 0;
   for (const std::uint32_t t : tets) cost += cost_to_flip(t);
   if (!tets.empty() && complex_.is_kept(tets[0])) cost += parting_;
   if (tets.empty() || !std::isfinite(cost) || is_thin_air(tets)) return;
   const std::vector<std::uint32_t> vertices = vertices_of(tets);
-  const auto at_most = std::count_if(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return is_bad(v); });
-  if (score(cost, static_cast<double>(at_most)) >= best_.score) return;
-  const double found = score(cost, count_mended(tets, vertices));
-  if (found < best_.score) best_ = {tets, found};
+  auto mended = std::count_if(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return is_bad(v); });
+  const auto found = [&] { return score(cost, static_cast<double>(mended)); };
+  std::vector<std::uint8_t> states;
+  for (const std::uint32_t t : tets) states.push_back(complex_.state(t));
+  flip(tets);
+  for (std::size_t i = 0; i < vertices.size() && found() < best_.score; ++i)
+    if (!complex_.is_sound(vertices[i])) --mended;
+  for (std::size_t i = 0; i < tets.size(); ++i) complex_.set_state(tets[i], states[i]);
+  if (found() < best_.score) best_ = {tets, found()};
 }
 
 /// Whole pieces, fans and gaps around pinched edges, and the cheapest paths between pieces.

@@ -36,7 +36,8 @@ std::array<std::int64_t, 3> face_normal(const Steps& a, const Steps& b, const St
 
 }  // namespace
 
-TetRows::TetRows(const InsideBlocks& inside, const LatticeFrame& frame, const LatticeTable& table) : inside_(inside) {
+TetRows::TetRows(const InsideBlocks& inside, const LatticeFrame& frame, const LatticeTable& table)
+    : inside_(inside), frame_(frame), table_(table) {
   const GridFrame& grid = inside.bits().frame;
   const auto fixed = [](const Vec3d& p) { return Fixed{to_fixed(p.x), to_fixed(p.y), to_fixed(p.z)}; };
   const Vec3d first = frame.to_cell(grid.origin);
@@ -90,13 +91,15 @@ VoxelCount TetRows::count(const Cell& cell, std::size_t tet, const VoxelRange& r
   Fixed at = first_;  // of voxel (0, 0, 0), relative to the cell
   for (std::size_t i = 0; i < 3; ++i) at[i] -= cell[i] * kOne;
   const HalfSpaces& halves = half_spaces_[is_odd(cell)][tet];
+  const TetCorners corners = corners_in_voxels(cell, tet);
   VoxelCount count;
   for (int z = range.begin[2]; z < range.end[2]; ++z) {
+    const auto [low, high] = slice(corners, z);
+    const int begin = std::max(range.begin[1], low), end = std::min(range.end[1], high);
     Sums at_zero;
     for (std::size_t i = 0; i < 4; ++i)
-      at_zero[i] =
-          dot(halves.normal[i], at) + halves.offset[i] + halves.step[1][i] * range.begin[1] + halves.step[2][i] * z;
-    for (int y = range.begin[1]; y < range.end[1]; ++y) {
+      at_zero[i] = dot(halves.normal[i], at) + halves.offset[i] + halves.step[1][i] * begin + halves.step[2][i] * z;
+    for (int y = begin; y < end; ++y) {
       const Run run = narrowed(halves, at_zero, {range.begin[0], range.end[0]});
       for (std::size_t i = 0; i < 4; ++i) at_zero[i] += halves.step[1][i];
       if (run.begin >= run.end) continue;
@@ -105,6 +108,36 @@ VoxelCount TetRows::count(const Cell& cell, std::size_t tet, const VoxelRange& r
     }
   }
   return count;
+}
+
+TetCorners TetRows::corners_in_voxels(const Cell& cell, std::size_t tet) const {
+  TetCorners corners = table_.corners(tet, is_odd(cell));
+  for (Vec3d& p : corners) {
+    p += Vec3d{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
+    p = (frame_.to_point(p) - inside_.bits().frame.origin) * (1 / inside_.bits().frame.voxel_size);
+  }
+  return corners;
+}
+
+/// The rows of a layer that a tet in voxel coordinates may reach. Floating point only has to miss none.
+TetRows::Run TetRows::slice(const TetCorners& corners, int z) {
+  constexpr double kTouching = 1e-6, kLevel = 1e-3;  // voxels; an edge within a layer is not cut but taken whole
+  double low = 1e9, high = -1e9;
+  const auto add = [&](double y) {
+    low = std::min(low, y);
+    high = std::max(high, y);
+  };
+  for (const auto& edge : kTetEdges) {
+    const Vec3d a = corners[static_cast<std::size_t>(edge[0])], b = corners[static_cast<std::size_t>(edge[1])];
+    if (z < std::min(a.z, b.z) - kTouching || z > std::max(a.z, b.z) + kTouching) continue;
+    if (std::abs(b.z - a.z) < kLevel) {
+      add(a.y);
+      add(b.y);
+    } else {
+      add(a.y + std::clamp((z - a.z) / (b.z - a.z), 0.0, 1.0) * (b.y - a.y));
+    }
+  }
+  return low > high ? Run{0, 0} : Run{ceil_to_int(low - kUnsure), floor_to_int(high + kUnsure) + 1};
 }
 
 std::size_t TetRows::count_inside(const Run& run, int y, int z) const {

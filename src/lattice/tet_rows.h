@@ -41,9 +41,13 @@ class TetRows {
 
   HalfSpaces half_spaces(const LatticeTet& tet, const LatticeTable& table) const;
   static Run narrowed(const HalfSpaces& halves, const Sums& at_zero, const Run& run);
+  TetCorners corners_in_voxels(const Cell& cell, std::size_t tet) const;
+  static Run slice(const TetCorners& corners, int z);
   std::size_t count_inside(const Run& run, int y, int z) const;
 
   const InsideBlocks& inside_;
+  const LatticeFrame& frame_;
+  const LatticeTable& table_;
   Fixed first_{};                ///< Cell coordinates of voxel (0, 0, 0)
   std::array<Fixed, 3> step_{};  ///< and their change from voxel to voxel.
   std::array<std::array<HalfSpaces, kMostTetsPerCell>, 2> half_spaces_{};

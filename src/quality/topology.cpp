@@ -6,6 +6,7 @@
 #include "base/groups.h"
 #include "base/tet_faces.h"
 #include "base/unions.h"
+#include "quality/surface.h"
 
 namespace tetsoup {
 
@@ -107,6 +108,7 @@ void measure_topology(const TetMesh& mesh, Quality& quality) {
   quality.boundary_manifold =
       quality.boundary_closed && quality.non_manifold_edges == 0 && quality.non_manifold_vertices == 0;
   quality.boundary_only_tets = count_boundary_only(mesh, triangles);
+  measure_surface(mesh, faces, triangles, quality);
 }
 
 }  // namespace tetsoup

@@ -1,5 +1,3 @@
-#include "memory.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -7,7 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace tetsoup::cli {
+#include "tetsoup/io.h"
+
+namespace tetsoup {
 
 namespace {
 
@@ -86,4 +86,4 @@ std::optional<std::size_t> usable_memory() {
   return static_cast<std::size_t>(static_cast<double>(*free) * kUsableShare);
 }
 
-}  // namespace tetsoup::cli
+}  // namespace tetsoup

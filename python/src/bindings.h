@@ -1,0 +1,13 @@
+// The parts of the module, in the order in which they are bound.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace tetsoup::python {
+
+void bind_meshes(nanobind::module_& module);
+void bind_stages(nanobind::module_& module);
+void bind_pipeline(nanobind::module_& module);
+void bind_files(nanobind::module_& module);
+
+}  // namespace tetsoup::python

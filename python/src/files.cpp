@@ -1,0 +1,53 @@
+// Files in and out.
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "progress.h"
+#include "records.h"
+#include "tetsoup/error.h"
+#include "tetsoup/io.h"
+
+namespace tetsoup::python {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<TetFormat> format_named(const std::optional<std::string>& name) {
+  if (!name) return {};
+  std::string known;
+  for (const TetFormatInfo& info : tet_formats()) {
+    if (info.name == *name) return info.format;
+    known += (known.empty() ? "'" : ", '") + info.name + "'";
+  }
+  throw InvalidInput("format = '" + *name + "', must be one of " + known);
+}
+
+}  // namespace
+
+void bind_files(nb::module_& m) {
+  m.def("read_soup", [](const fs::path& path) {
+    TriangleSoup soup = call_unlocked([&] { return read_soup(path); });
+    return std::tuple(owned_rows<float, 3>(std::move(soup.vertices)),
+                      owned_rows<std::uint32_t, 3>(std::move(soup.triangles)));
+  });
+  m.def("read_tets", [](const fs::path& path) { return call_unlocked([&] { return read_tets(path); }); });
+  m.def("is_tet_file", [](const fs::path& path) { return call_unlocked([&] { return is_tet_file(path); }); });
+  m.def(
+      "write_tets",
+      [](const fs::path& path, const TetMesh& mesh, const std::optional<std::string>& format) {
+        const std::optional<TetFormat> chosen = format_named(format);
+        return call_unlocked([&] { return write_tets(path, mesh, chosen); });
+      },
+      nb::arg("path"), nb::arg("mesh"), nb::arg("format").none());
+  m.def("tet_formats", [] {
+    std::map<std::string, std::string> formats;
+    for (const TetFormatInfo& info : tet_formats()) formats[info.name] = info.summary;
+    return formats;
+  });
+  m.def("usable_memory", [] { return usable_memory(); });
+}
+
+}  // namespace tetsoup::python

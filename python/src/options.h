@@ -1,0 +1,22 @@
+// Keywords of the Python functions and the members of MeshOptions that they set.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <string_view>
+
+#include "tetsoup/pipeline.h"
+
+namespace tetsoup::python {
+
+namespace nb = nanobind;
+
+/// Options from keywords. `stage` is "distance", "pseudo_volume", "lattice" or "smooth": that stage's alone; or "":
+/// all.
+/// @throws InvalidInput  for a value of the wrong type or an unknown word; nb::type_error for an unknown keyword.
+MeshOptions read_options(nb::dict keywords, std::string_view stage = {});
+
+/// The value of every keyword of a stage, or of all.
+nb::typed<nb::dict, nb::str, nb::any> describe_options(const MeshOptions& options, std::string_view stage = {});
+
+}  // namespace tetsoup::python

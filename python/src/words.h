@@ -1,0 +1,65 @@
+// The words that stand for the library's enumerators in Python; the same as the command-line tool's.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "tetsoup/pipeline.h"
+
+namespace tetsoup::python {
+
+template <class E>
+using Word = std::pair<const char*, E>;
+
+template <class E>
+inline constexpr std::array<Word<E>, 0> kWords{};
+
+template <>
+inline constexpr std::array kWords<DistanceMode>{Word<DistanceMode>{"band", DistanceMode::Band},
+                                                 Word<DistanceMode>{"full", DistanceMode::Full}};
+template <>
+inline constexpr std::array kWords<Placement>{Word<Placement>{"closest", Placement::Closest},
+                                              Word<Placement>{"entry", Placement::Entry}};
+template <>
+inline constexpr std::array kWords<Cavities>{Word<Cavities>{"fill", Cavities::Fill},
+                                             Word<Cavities>{"keep", Cavities::Keep}};
+template <>
+inline constexpr std::array kWords<LatticeKind>{Word<LatticeKind>{"five", LatticeKind::Five},
+                                                Word<LatticeKind>{"bcc", LatticeKind::Bcc}};
+template <>
+inline constexpr std::array kWords<Fit>{Word<Fit>{"off", Fit::Off}, Word<Fit>{"search", Fit::Search}};
+template <>
+inline constexpr std::array kWords<Thin>{Word<Thin>{"keep", Thin::Keep}, Word<Thin>{"drop", Thin::Drop}};
+template <>
+inline constexpr std::array kWords<Cover>{Word<Cover>{"density", Cover::Density},
+                                          Word<Cover>{"enclose", Cover::Enclose}, Word<Cover>{"inside", Cover::Inside}};
+template <>
+inline constexpr std::array kWords<Separate>{Word<Separate>{"on", Separate::Apart},
+                                             Word<Separate>{"off", Separate::Together}};
+template <>
+inline constexpr std::array kWords<Touching>{Word<Touching>{"mend", Touching::Mend},
+                                             Word<Touching>{"leave", Touching::Leave}};
+template <>
+inline constexpr std::array kWords<Bubbles>{Word<Bubbles>{"fill", Bubbles::Fill}, Word<Bubbles>{"keep", Bubbles::Keep}};
+template <>
+inline constexpr std::array kWords<BoundaryOnly>{Word<BoundaryOnly>{"leave", BoundaryOnly::Leave},
+                                                 Word<BoundaryOnly>{"remove", BoundaryOnly::Remove},
+                                                 Word<BoundaryOnly>{"split", BoundaryOnly::Split}};
+template <>
+inline constexpr std::array kWords<SoupClass>{
+    Word<SoupClass>{"closed", SoupClass::Closed}, Word<SoupClass>{"open", SoupClass::Open},
+    Word<SoupClass>{"soup", SoupClass::Soup}, Word<SoupClass>{"empty", SoupClass::Empty}};
+template <>
+inline constexpr std::array kWords<Stage>{Word<Stage>{"soup", Stage::Soup}, Word<Stage>{"distance", Stage::Distance},
+                                          Word<Stage>{"pseudo_volume", Stage::PseudoVolume},
+                                          Word<Stage>{"lattice", Stage::Lattice}, Word<Stage>{"smooth", Stage::Smooth}};
+
+template <class E>
+const char* word_of(E value) {
+  for (const auto& [word, named] : kWords<E>)
+    if (named == value) return word;
+  return "";
+}
+
+}  // namespace tetsoup::python

@@ -1,0 +1,92 @@
+"""The package itself: command, types, docs, examples."""
+
+from __future__ import annotations
+
+import inspect
+import pathlib
+import re
+import subprocess
+import sys
+import typing
+
+import pytest
+import tetsoup
+from conftest import ROOT
+from tetsoup import _core
+
+EXAMPLES = ROOT / "examples" / "python"
+PUBLIC = [getattr(tetsoup, name) for name in tetsoup.__all__ if not name.startswith("_")]
+
+
+def run(*command, cwd=None, code=0):
+    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stdout + done.stderr
+    return done.stdout + done.stderr
+
+
+def test_the_version_is_the_projects():
+    wanted = re.search(r"project\(tetsoup VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())
+    assert wanted and tetsoup.__version__ == wanted[1]
+
+
+def test_the_command_is_the_tool():
+    assert tetsoup.__version__ in run(sys.executable, "-m", "tetsoup", "--version")
+    run(sys.executable, "-m", "tetsoup", "mesh", "nowhere.obj", "-o", "x.msh", code=3)
+
+
+def test_every_option_of_the_library_has_a_keyword_with_a_type():
+    for group, stage in (
+        (tetsoup.DistanceOptions, "distance"),
+        (tetsoup.PseudoVolumeOptions, "pseudo_volume"),
+        (tetsoup.LatticeOptions, "lattice"),
+        (tetsoup.SmoothOptions, "smooth"),
+        (tetsoup.MeshOptions, ""),
+    ):
+        assert set(typing.get_type_hints(group)) == set(_core.default_options(stage))
+    signature = inspect.signature(tetsoup.tetrahedralize)
+    assert signature.parameters["rho_min"].default == tetsoup.default_options()["rho_min"]
+    assert "rho_min" in tetsoup.tetrahedralize.__doc__ and "rho_min" not in tetsoup.smooth.__doc__
+
+
+def test_defaults_are_the_librarys(cube):
+    plain, spelled = (tetsoup.tetrahedralize(*cube, **options) for options in ({}, tetsoup.default_options()))
+    assert plain.points.tobytes() == spelled.points.tobytes()
+
+
+@pytest.mark.parametrize(
+    "thing", [p for p in PUBLIC if inspect.isfunction(p) or inspect.isclass(p)], ids=lambda p: p.__name__
+)
+def test_everything_public_is_documented(thing):
+    assert inspect.getdoc(thing)
+    if inspect.isfunction(thing) and thing.__name__ not in ("sample_names", "formats", "thread_count"):
+        assert "Example" in inspect.getdoc(thing)
+
+
+def test_types_hold_in_a_typed_program_and_mistakes_are_found(tmp_path):
+    pytest.importorskip("mypy")
+    here = pathlib.Path(__file__).parent
+    config = ["--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(tmp_path)]
+    run(sys.executable, "-m", "mypy", *config, "-p", "tetsoup", cwd=tmp_path)
+    run(sys.executable, "-m", "mypy", *config, str(here / "typed_sample.py"), cwd=tmp_path)
+    found = run(sys.executable, "-m", "mypy", *config, str(here / "typed_mistakes.py"), cwd=tmp_path, code=1)
+    marked = [i for i, line in enumerate((here / "typed_mistakes.py").read_text().splitlines(), 1) if "# wrong" in line]
+    assert sorted({int(line) for line in re.findall(r"typed_mistakes\.py:(\d+): error", found)}) == marked
+
+
+def test_example_mesh_and_show(tmp_path):
+    assert "tets>" in run(sys.executable, EXAMPLES / "mesh_and_show.py", cwd=tmp_path)
+    assert (tmp_path / "tree.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_example_sweep(tmp_path):
+    assert "computed 1 time(s)" in run(sys.executable, EXAMPLES / "sweep.py", cwd=tmp_path).replace("  ", " ")
+
+
+def test_example_batch(tmp_path):
+    for name in ("torus", "robot"):
+        run(sys.executable, "-m", "tetsoup", "sample", name, "-o", f"{name}.obj", cwd=tmp_path)
+    (tmp_path / "bad.ply").write_text("ply\n")
+    (tmp_path / "empty.obj").write_text("# nothing\n")
+    run(sys.executable, EXAMPLES / "batch.py", tmp_path, tmp_path / "out", cwd=tmp_path)
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {"torus.msh", "robot.msh", "batch.csv"}
+    assert len((tmp_path / "out" / "batch.csv").read_text().splitlines()) == 5

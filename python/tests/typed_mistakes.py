@@ -1,0 +1,11 @@
+"""A program in which mypy must find exactly the marked mistakes; nobody executes it."""
+
+import tetsoup
+
+mesh = tetsoup.tetrahedralize("bunny.ply", tets="many")  # wrong
+mesh = tetsoup.tetrahedralize("bunny.ply", rhomin=0.5)  # wrong
+mesh = tetsoup.tetrahedralize("bunny.ply", thin="maybe")  # wrong
+print(mesh.quality.min_dihedral, mesh.report.lattice.tet_count)
+print(mesh.quality.minimum_dihedral)  # wrong
+tetsoup.smooth(mesh, tets=3)  # wrong
+mesh.save(3)  # wrong

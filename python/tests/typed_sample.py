@@ -1,0 +1,26 @@
+"""A program that mypy --strict must accept; test_package.py runs it through mypy, nobody executes it."""
+
+import pathlib
+
+import numpy as np
+import numpy.typing as npt
+import tetsoup
+
+
+def watch(stage: str, fraction: float) -> bool | None:
+    return fraction < 0.5
+
+
+def main(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64]) -> float:
+    mesh = tetsoup.tetrahedralize(vertices, faces, tets=2000, thin="keep", rotate=(0, 0, 0.1), progress=watch)
+    points: npt.NDArray[np.float32] = mesh.points
+    tets: npt.NDArray[np.int32] = mesh.tets
+    files: list[pathlib.Path] = mesh.save("mesh.msh")
+    options: tetsoup.LatticeOptions = {"rho_min": 0.3, "lattice": "bcc"}
+    pipeline = tetsoup.Pipeline(tetsoup.read(files[0]), progress=tetsoup.tqdm_progress())
+    again: tetsoup.TetMesh = pipeline.run(voxels=64, **options)
+    votes: npt.NDArray[np.uint8] = pipeline.pseudo_volume.votes
+    lattice, report = tetsoup.fill_lattice(pipeline.pseudo_volume, pipeline.soup, cells=20)
+    parts: int = again.quality.components + report.topology.parts_dropped + len(lattice.tets)
+    seconds: dict[str, float] = again.report.seconds
+    return parts + seconds["lattice"] + float(points[tets].sum()) + int(votes.max()) + mesh.readiness(density=500).mass

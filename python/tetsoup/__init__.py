@@ -1,0 +1,198 @@
+"""tetsoup: any triangle soup in, a coarse and well-shaped tetrahedral mesh out.
+
+Example:
+    >>> import tetsoup
+    >>> mesh = tetsoup.tetrahedralize("bunny.ply", tets=2000)
+    >>> mesh.save("bunny.msh")
+"""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+import numpy.typing as npt
+
+from tetsoup import _core
+from tetsoup._core import (
+    BandScore,
+    Cancelled,
+    CleanSoup,
+    DistanceField,
+    InvalidInput,
+    IoError,
+    LatticeReport,
+    PseudoVolume,
+    PseudoVolumeReport,
+    Quality,
+    Readiness,
+    ReadinessCheck,
+    SmoothReport,
+    SoupReport,
+    TopologyReport,
+)
+from tetsoup._mesh import Report, TetMesh
+from tetsoup._progress import Progress, tqdm_progress
+from tetsoup._soup_input import Soup
+from tetsoup._stages import (
+    LatticeMesh,
+    Pipeline,
+    SmoothResult,
+    classify_volume,
+    clean_soup,
+    fill_lattice,
+    smooth,
+    tetrahedralize,
+    unsigned_distance,
+    widen_distance,
+)
+from tetsoup.options import (
+    DistanceOptions,
+    LatticeOptions,
+    MeshOptions,
+    PseudoVolumeOptions,
+    SmoothOptions,
+    default_options,
+)
+
+__version__: str = _core.VERSION
+for _error in (InvalidInput, IoError, Cancelled):
+    _error.__module__ = "tetsoup"
+
+
+def read(path: str | os.PathLike[str]) -> Soup:
+    """Reads triangles: .obj .stl .ply .off .gltf .glb. Polygons are cut into fans; nothing else is changed.
+
+    Returns:
+        A `Soup`: vertices (N, 3) float32, faces (F, 3) integers.
+
+    Raises:
+        tetsoup.IoError: if the file cannot be read or is damaged; the text names the line or the byte.
+
+    Example:
+        >>> vertices, faces = tetsoup.read("bunny.ply")
+    """
+    return _as_soup(*_core.read_soup(os.fspath(path)))
+
+
+def read_tets(path: str | os.PathLike[str]) -> TetMesh:
+    """Reads a tet mesh: .msh .vtk .vtu .mesh .node.
+
+    Raises:
+        tetsoup.IoError: if the file cannot be read or is damaged.
+
+    Example:
+        >>> tetsoup.read_tets("bunny.msh").quality.min_dihedral
+        0.2617993877991494
+    """
+    return TetMesh._wrap(_core.read_tets(os.fspath(path)))
+
+
+def overlap(mesh: TetMesh, volume: PseudoVolume) -> float:
+    """Intersection over union of a mesh with the inside voxels of a volume, 0..1.
+
+    Example:
+        >>> tetsoup.overlap(pipeline.mesh, pipeline.pseudo_volume)
+        0.93
+    """
+    return volume.overlap(mesh._handle)
+
+
+def sample(name: str, *, damage: float = 0, seed: int = 1) -> Soup:
+    """A shape made by formula, to play with; the same bits on every machine.
+
+    Args:
+        name: one of `sample_names()`.
+        damage: share of the triangles removed at random, [0, 1).
+        seed: of whatever is random.
+
+    Raises:
+        tetsoup.InvalidInput: for an unknown name or a damage out of range.
+
+    Example:
+        >>> tetsoup.tetrahedralize(tetsoup.sample("torus", damage=0.9))
+        <tetsoup.TetMesh: 696 points, 1,980 tets>
+    """
+    return _as_soup(*_core.make_sample(name, damage, seed))
+
+
+def sample_names() -> list[str]:
+    """Names that `sample` knows."""
+    return _core.sample_names()
+
+
+def formats() -> dict[str, str]:
+    """Names and meanings of the formats that `TetMesh.save` takes."""
+    return _core.tet_formats()
+
+
+def set_thread_count(threads: int) -> None:
+    """Upper bound on the threads that everything uses from now on; 0 takes all cores. Results never depend on it.
+
+    Raises:
+        tetsoup.InvalidInput: if negative.
+
+    Example:
+        >>> tetsoup.set_thread_count(4)
+    """
+    _core.set_thread_count(threads)
+
+
+def thread_count() -> int:
+    """Threads that may be used now."""
+    return _core.thread_count()
+
+
+def _as_soup(vertices: npt.NDArray[np.float32], faces: npt.NDArray[np.uint32]) -> Soup:
+    """Faces signed, as NumPy's users expect; in 64 bits if a file holds wild indices."""
+    wild = faces.size > 0 and int(faces.max()) > np.iinfo(np.int32).max
+    return Soup(vertices, faces.astype(np.int64) if wild else faces.view(np.int32))
+
+
+__all__ = [
+    "BandScore",
+    "Cancelled",
+    "CleanSoup",
+    "DistanceField",
+    "DistanceOptions",
+    "InvalidInput",
+    "IoError",
+    "LatticeMesh",
+    "LatticeOptions",
+    "LatticeReport",
+    "MeshOptions",
+    "Pipeline",
+    "Progress",
+    "PseudoVolume",
+    "PseudoVolumeOptions",
+    "PseudoVolumeReport",
+    "Quality",
+    "Readiness",
+    "ReadinessCheck",
+    "Report",
+    "SmoothOptions",
+    "SmoothReport",
+    "SmoothResult",
+    "Soup",
+    "SoupReport",
+    "TetMesh",
+    "TopologyReport",
+    "__version__",
+    "classify_volume",
+    "clean_soup",
+    "default_options",
+    "fill_lattice",
+    "formats",
+    "overlap",
+    "read",
+    "read_tets",
+    "sample",
+    "sample_names",
+    "set_thread_count",
+    "smooth",
+    "tetrahedralize",
+    "thread_count",
+    "tqdm_progress",
+    "unsigned_distance",
+    "widen_distance",
+]

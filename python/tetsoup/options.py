@@ -1,0 +1,134 @@
+"""Every option of the library, by stage: the keywords of the functions that take them.
+
+Each is one line: keyword, type, meaning. Defaults are the library's own (`tetsoup.default_options()`); leaving a
+keyword out takes them. Lengths are in the soup's own unit unless a name ends in ``_voxels`` or ``_cells``; angles are
+radians.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict, TypeVar, get_args, get_origin, get_type_hints
+
+from tetsoup import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy as np
+    import numpy.typing as npt
+
+    Triple = Sequence[float] | npt.NDArray[np.floating[Any]]
+    Corners = Sequence[Triple] | npt.NDArray[np.floating[Any]]
+else:
+    Triple = Corners = object
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+class DistanceOptions(TypedDict, total=False):
+    """The voxel grid and the distances on it. At most one of `voxels` and `voxel_size`; none: 128 voxels."""
+
+    voxels: Annotated[int | None, "voxels along the longest axis of the soup's box, 1..4096"]
+    voxel_size: Annotated[float | None, "edge of a voxel, instead of `voxels`"]
+    box: Annotated[Corners | None, "corners of the space to cover, which must hold the soup (the soup's box)"]
+    distance_band_voxels: Annotated[float, "half width of the band in which distances are exact, in voxels, >= 3"]
+    distance_mode: Annotated[Literal["band", "full"], "distances in the band, all that meshing needs, or everywhere"]
+
+
+class PseudoVolumeOptions(TypedDict, total=False):
+    """What is inside. At most one of `k`, `band_voxels` and `band`; none: chosen automatically."""
+
+    k: Annotated[float | None, "event threshold, 0..1; less bridges wider gaps between triangles"]
+    band_voxels: Annotated[float | None, "half width of the event band in voxels: about half the widest gap to close"]
+    band: Annotated[float | None, "the same as a length"]
+    rays: Annotated[int, "rays that vote on every voxel: 26 or 13"]
+    placement: Annotated[Literal["closest", "entry"], "where a ray crosses the band; 'entry' thickens the result"]
+    cavities: Annotated[Literal["fill", "keep"], "space that the soup encloses although rays call it outside"]
+
+
+class LatticeOptions(TypedDict, total=False):
+    """The tets. At most one of `tets`, `mesh_vertices`, `edge`, `cells` and `cell_size`; none: 2,000 tets."""
+
+    tets: Annotated[int | None, "tets wanted, 1..2^27"]
+    mesh_vertices: Annotated[int | None, "vertices wanted"]
+    edge: Annotated[float | None, "mean edge of the lattice's tets"]
+    cells: Annotated[int | None, "cubic cells along the longest axis of the soup's box, 1..1024"]
+    cell_size: Annotated[float | None, "edge of a cubic cell"]
+    lattice: Annotated[Literal["five", "bcc"], "five tets a cube, or body-centred cubic: twelve equal tets a cube"]
+    translate_cells: Annotated[Triple, "shift of the lattice (x, y, z), in fractions of a cell"]
+    rotate: Annotated[Triple, "rotation of the lattice about x, then y, then z, radians"]
+    fit: Annotated[Literal["off", "search"], "'search' moves and turns the lattice to match the volume best"]
+    rho_min: Annotated[float, "a tet stays if at least this share of it is inside, (0, 1]"]
+    thin: Annotated[Literal["keep", "drop"], "parts of the soup too thin for the lattice"]
+    cover: Annotated[
+        Literal["density", "enclose", "inside"],
+        "'enclose': the soup's vertices lie in the mesh; 'inside': it in the volume",
+    ]
+    separate: Annotated[Literal["on", "off"], "keep apart what shares a cell without touching"]
+    touching: Annotated[Literal["mend", "leave"], "tets joined by a vertex or an edge only"]
+    min_part: Annotated[float, "parts with a smaller share of the volume are dropped, [0, 1)"]
+    bubbles: Annotated[Literal["fill", "keep"], "voids in the mesh without a way out"]
+    boundary_only: Annotated[Literal["leave", "remove", "split"], "tets with all four vertices on the boundary"]
+
+
+class SmoothOptions(TypedDict, total=False):
+    """Rounding the lattice's corners off."""
+
+    passes: Annotated[int, "smoothing passes, 0..1000; 0 leaves the lattice as it is"]
+    strength: Annotated[float, "time step of the fairing in squared mean edge lengths, > 0"]
+    min_dihedral: Annotated[float, "dihedral angle that smoothing never goes below, radians in [0, pi/3)"]
+
+
+class RunOptions(TypedDict, total=False):
+    """What the machine may give."""
+
+    memory_limit: Annotated[int | None, "bytes that the voxel grid may take; None: no limit (what is free now)"]
+
+
+class MeshOptions(DistanceOptions, PseudoVolumeOptions, LatticeOptions, SmoothOptions, RunOptions, total=False):
+    """All options there are."""
+
+
+ALL_GROUPS = (DistanceOptions, PseudoVolumeOptions, LatticeOptions, SmoothOptions, RunOptions)
+
+
+def default_options() -> dict[str, Any]:
+    """The library's default for every keyword of `tetrahedralize`.
+
+    Example:
+        >>> tetsoup.default_options()["rho_min"]
+        0.5
+    """
+    return {**_core.default_options(""), "memory_limit": _core.usable_memory()}
+
+
+def complete(options: MeshOptions) -> dict[str, Any]:
+    """The options as given, with the limit that keeps a run from exhausting the machine."""
+    return {"memory_limit": _core.usable_memory(), **options}
+
+
+def documented(*groups: Any) -> Callable[[Function], Function]:
+    """Shows the options of these groups as keywords in `help()` and to completers, with defaults and meaning."""
+
+    def show(function: Function) -> Function:
+        defaults = _core.default_options("")
+        signature = inspect.signature(function)
+        parameters = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
+        lines = []
+        for group in groups:
+            lines += ["", f"    {group.__name__}: {inspect.getdoc(group)}"]
+            for name, hint in get_type_hints(group, include_extras=True).items():
+                kind, meaning = get_args(hint) if get_origin(hint) is Annotated else (hint, "")
+                keyword = inspect.Parameter(
+                    name, inspect.Parameter.KEYWORD_ONLY, default=defaults[name], annotation=kind
+                )
+                parameters.append(keyword)
+                default = "" if meaning.endswith(")") else f" ({defaults[name]!r})"  # some say it in words
+                lines.append(f"        {name}: {meaning}{default}")
+        function.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+        function.__doc__ = f"{inspect.getdoc(function)}\n\nOptions:{chr(10).join(lines)}\n"
+        return function
+
+    return show
