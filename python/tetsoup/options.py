@@ -125,7 +125,7 @@ def documented(*groups: Any) -> Callable[[Function], Function]:
                     name, inspect.Parameter.KEYWORD_ONLY, default=defaults[name], annotation=kind
                 )
                 parameters.append(keyword)
-                default = "" if meaning.endswith(")") else f" ({defaults[name]!r})"  # some say it in words
+                default = "" if defaults[name] is None else f" ({defaults[name]!r})"
                 lines.append(f"        {name}: {meaning}{default}")
         function.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
         function.__doc__ = f"{inspect.getdoc(function)}\n\nOptions:{chr(10).join(lines)}\n"
