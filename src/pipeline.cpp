@@ -116,7 +116,11 @@ void Pipeline::run_until(Stage last, const MeshOptions& options, const Progress&
   if (last == Stage::PseudoVolume) return;
   if (!lattice_) timed(Stage::Lattice, [&] { lattice_ = fill_lattice(*volume_, soup_, options.lattice, progress); });
   if (last == Stage::Lattice) return;
-  if (!smooth_) timed(Stage::Smooth, [&] { smooth_ = smooth_tets(lattice_->mesh, options.smooth, progress); });
+  if (!smooth_) {
+    SmoothTarget target{&volume_->inside, {}};
+    if (options.lattice.cover == Cover::Enclose) target.enclosed = soup_.soup.vertices;
+    timed(Stage::Smooth, [&] { smooth_ = smooth_tets(lattice_->mesh, target, options.smooth, progress); });
+  }
 }
 
 TetMesh mesh_soup(const TriangleSoup& soup, const MeshOptions& options, const Progress& progress) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/bits.h"
 #include "kernel/reference.h"
 #include "shapes.h"
 
@@ -15,7 +16,8 @@ namespace tetsoup::test {
 class AxisCrossings {
  public:
   AxisCrossings(const TriangleSoup& soup, const GridFrame& frame, const std::array<int, 3>& axis)
-      : crossings{frame, std::vector<std::uint8_t>(frame.voxel_count())} {
+      : crossings{frame, std::vector<std::uint8_t>(frame.voxel_count())},
+        entries{frame, std::vector<std::int8_t>(frame.voxel_count())} {
     main_ = axis[2] != 0 ? 2 : axis[1] != 0 ? 1 : 0;  // the coordinate that every step moves by one
     a_ = (main_ + 1) % 3;
     b_ = (main_ + 2) % 3;
@@ -32,6 +34,7 @@ class AxisCrossings {
   }
 
   Grid<std::uint8_t> crossings;
+  Grid<std::int8_t> entries;  ///< Crossings through a front less those through a back, by the triangles' winding.
 
  private:
   void add(const std::array<std::array<double, 3>, 3>& corners) {
@@ -51,22 +54,63 @@ class AxisCrossings {
         };
         const double w0 = weight(1, 2), w1 = weight(2, 0), w2 = weight(0, 1);
         if (w0 < 0 || w1 < 0 || w2 < 0) continue;
-        note(iu, iv, w0 * corners[0][main_] + w1 * corners[1][main_] + w2 * corners[2][main_]);
+        note(iu, iv, w0 * corners[0][main_] + w1 * corners[1][main_] + w2 * corners[2][main_], area < 0 ? 1 : -1);
       }
     }
   }
 
-  void note(int iu, int iv, double crossing) {
+  void note(int iu, int iv, double crossing, int entry) {
     std::array<int, 3> at{};
     at[main_] = static_cast<int>(std::ceil(crossing));
     at[a_] = iu + slope_a_ * at[main_];
     at[b_] = iv + slope_b_ * at[main_];
-    if (crossings.frame.contains(at[0], at[1], at[2])) ++crossings.values[crossings.index(at[0], at[1], at[2])];
+    if (!crossings.frame.contains(at[0], at[1], at[2])) return;
+    const std::size_t voxel = crossings.index(at[0], at[1], at[2]);
+    ++crossings.values[voxel];
+    entries.values[voxel] = static_cast<std::int8_t>(entries.values[voxel] + entry);
   }
 
   std::size_t main_, a_, b_;
   int slope_a_, slope_b_;
 };
+
+/// Where the winding number, taken as the mean over the 26 rays through a voxel, is above a half. True for unions of
+/// closed parts wound outwards, and close to the generalised winding number where a few holes are left.
+inline BitGrid winding_solid(const TriangleSoup& soup, const GridFrame& frame) {
+  std::vector<int> twice(frame.voxel_count());  // both ways along 13 axes
+  for (const auto& axis : reference::ray_axes()) {
+    const Grid<std::int8_t> entries = AxisCrossings(soup, frame, axis).entries;
+    const auto step = static_cast<std::ptrdiff_t>(entries.index(1, 0, 0)) * axis[0] +
+                      static_cast<std::ptrdiff_t>(entries.index(0, 1, 0)) * axis[1] +
+                      static_cast<std::ptrdiff_t>(entries.index(0, 0, 1)) * axis[2];
+    const auto walk_line = [&](std::array<int, 3> at) {
+      int ahead = 0;
+      auto voxel = static_cast<std::ptrdiff_t>(entries.index(at[0], at[1], at[2]));
+      const auto first = voxel;
+      std::ptrdiff_t count = 0;
+      for (; frame.contains(at[0], at[1], at[2]); at = {at[0] + axis[0], at[1] + axis[1], at[2] + axis[2]}) {
+        ahead += entries.values[static_cast<std::size_t>(voxel)];
+        twice[static_cast<std::size_t>(voxel)] += 2 * ahead;
+        voxel += step;
+        ++count;
+      }
+      if (ahead == 0) return;  // what came in went out: the way back says the same
+      for (voxel = first; count-- > 0; voxel += step) twice[static_cast<std::size_t>(voxel)] -= ahead;
+    };
+    for (int z = 0; z < frame.size[2]; ++z)
+      for (int y = 0; y < frame.size[1]; ++y)
+        for (int x = 0; x < frame.size[0]; ++x)
+          if (!frame.contains(x - axis[0], y - axis[1], z - axis[2])) walk_line({x, y, z});
+  }
+  BitGrid solid = make_bit_grid(frame);
+  const Grid<int> index{frame, {}};
+  for (int z = 0; z < frame.size[2]; ++z)
+    for (int y = 0; y < frame.size[1]; ++y)
+      for (int x = 0; x < frame.size[0]; ++x)
+        if (std::abs(twice[index.index(x, y, z)]) > 13)
+          solid.words[solid.row(y, z) + static_cast<std::size_t>(x >> 6)] |= std::uint64_t{1} << (x & 63);
+  return solid;
+}
 
 /// Intersection over union of what volume events and parity counting call inside, voting along the same rays.
 struct ParityAgreement {

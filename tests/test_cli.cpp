@@ -26,9 +26,10 @@ TEST_F(Tool, help_has_examples_on_every_level) {
 TEST_F(Tool, help_of_mesh_names_every_flag_that_scripts_rely_on) {
   const std::string help = run({"mesh", "--help"}).out;
   for (const char* flag :
-       {"--voxels",  "--voxel-size", "--k ",      "--band-voxels", "--band ",  "--rays",   "--placement", "--cavities",
-        "--cells",   "--cell-size",  "--rho-min", "--translate",   "--rotate", "--passes", "--strength",  "--min-angle",
-        "--threads", "--json",       "--preview", "--quiet",       "--format", "--memory"})
+       {"--voxels",   "--voxel-size", "--k ",        "--band-voxels", "--band ",     "--rays",   "--placement",
+        "--cavities", "--cells",      "--cell-size", "--rho-min",     "--translate", "--rotate", "--passes",
+        "--strength", "--min-angle",  "--threads",   "--json",        "--preview",   "--quiet",  "--format",
+        "--memory",   "--tets",       "--vertices",  "--edge",        "--lattice",   "--fit"})
     EXPECT_NE(help.find(flag), std::string::npos) << flag;
 }
 
@@ -40,14 +41,18 @@ TEST_F(Tool, prints_its_version) {
 
 TEST_F(Tool, refuses_an_option_out_of_range_by_its_name) {
   const std::vector<std::array<std::string, 2>> wrong{
-      {"--voxels", "0"},       {"--voxels", "12abc"},       {"--voxels", "1e2"},      {"--voxels", "4097"},
-      {"--voxels", ""},        {"--voxels", "99999999999"}, {"--voxel-size", "0"},    {"--voxel-size", "nan"},
-      {"--voxel-size", "inf"}, {"--voxel-size", "0x1p3"},   {"--k", "1.01"},          {"--k", "automatic"},
-      {"--band-voxels", "-1"}, {"--band", "1,5"},           {"--rays", "14"},         {"--placement", "Entry"},
-      {"--cavities", "both"},  {"--cells", "1025"},         {"--cell-size", "1e999"}, {"--rho-min", "0"},
-      {"--translate", "1,2"},  {"--translate", "1,2,3,4"},  {"--rotate", "1,nan,0"},  {"--rotate", "1, 2,3"},
-      {"--passes", "-1"},      {"--passes", "2.5"},         {"--strength", "0"},      {"--min-angle", "60"},
-      {"--threads", "-1"},     {"--memory", "0"},           {"--format", "docx"}};
+      {"--voxels", "0"},         {"--voxels", "12abc"},   {"--voxels", "1e2"},
+      {"--voxels", "4097"},      {"--voxels", ""},        {"--voxels", "99999999999"},
+      {"--voxel-size", "0"},     {"--voxel-size", "nan"}, {"--voxel-size", "inf"},
+      {"--voxel-size", "0x1p3"}, {"--k", "1.01"},         {"--k", "automatic"},
+      {"--band-voxels", "-1"},   {"--band", "1,5"},       {"--rays", "14"},
+      {"--placement", "Entry"},  {"--cavities", "both"},  {"--cells", "1025"},
+      {"--tets", "0"},           {"--tets", "2e3"},       {"--vertices", "-5"},
+      {"--edge", "0"},           {"--lattice", "fcc"},    {"--cell-size", "1e999"},
+      {"--rho-min", "0"},        {"--translate", "1,2"},  {"--translate", "1,2,3,4"},
+      {"--rotate", "1,nan,0"},   {"--rotate", "1, 2,3"},  {"--passes", "-1"},
+      {"--passes", "2.5"},       {"--strength", "0"},     {"--min-angle", "60"},
+      {"--threads", "-1"},       {"--memory", "0"},       {"--format", "docx"}};
   for (const auto& [flag, value] : wrong) {
     const Outcome outcome = run({"mesh", "cube.obj", "-o", "x.msh", flag, value});
     EXPECT_EQ(outcome.exit_code, 2) << flag << " " << value;
@@ -68,6 +73,8 @@ TEST_F(Tool, refuses_wrong_usage_with_the_word_that_is_wrong) {
       {{"mesh", "cube.obj", "-o", "x.msh", "--voxels", "9", "--voxel-size", ".1"}, {"--voxels", "--voxel-size"}},
       {{"mesh", "cube.obj", "-o", "x.msh", "--k", "1", "--band", ".1"}, {"--k", "--band"}},
       {{"mesh", "cube.obj", "-o", "x.msh", "--cells", "9", "--cell-size", ".1"}, {"--cells", "--cell-size"}},
+      {{"mesh", "cube.obj", "-o", "x.msh", "--tets", "90", "--cells", "9"}, {"--tets", "--cells"}},
+      {{"mesh", "cube.obj", "-o", "x.msh", "--edge", "9", "--vertices", "9"}, {"--edge", "--vertices"}},
       {{"mesh", "cube.obj", "-o", "x.msh", "--cells", "9", "--cells", "8"}, {"--cells"}},
       {{"mesh", "cube.obj", "-o", "x.msh", "-o", "x.msh"}, {"x.msh"}},
       {{"mesh", "cube.obj", "-o", "x.msh", "--json", "x.msh"}, {"--json", "x.msh"}},

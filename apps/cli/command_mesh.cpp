@@ -34,7 +34,8 @@ struct MeshCommand {
 constexpr const char* kExamples =
     "Examples:\n"
     "  tetsoup mesh bunny.ply -o bunny.msh                     about 2,000 tets, everything chosen for you\n"
-    "  tetsoup mesh bunny.ply -o bunny.vtk --cells 40          more and smaller tets\n"
+    "  tetsoup mesh bunny.ply -o bunny.vtk --tets 10000        more and smaller tets\n"
+    "  tetsoup mesh bunny.ply -o bunny.msh --lattice bcc --fit  tets all alike, laid where they meet the shape best\n"
     "  tetsoup mesh tree.obj -o tree.msh --band-voxels 2       bridge wider gaps between loose triangles\n"
     "  tetsoup mesh part.stl -o part.msh --voxels 256 --preview part.png --json part.json\n"
     "\n"

@@ -13,10 +13,13 @@ namespace {
 
 // The ranges are those of the public headers; they are checked here so that the message names the flag.
 constexpr Range kVoxels{.low = 1, .high = 4096, .words = "a whole number from 1 to 4096"};
+constexpr Range kWanted{.low = 1, .high = 134217728, .words = "a whole number from 1 to 134217728"};
 constexpr Range kCells{.low = 1, .high = 1024, .words = "a whole number from 1 to 1024"};
 constexpr Range kShare{.low = 0, .high = 1, .low_included = false, .words = "a number above 0, at most 1"};
 constexpr Range kPasses{.low = 0, .high = 1000, .words = "a whole number from 0 to 1000"};
 constexpr Range kAngle{.low = 0, .high = 60, .high_included = false, .words = "degrees from 0 to below 60"};
+constexpr Range kObtuse{.low = 90, .high = 180, .words = "degrees from 90 to 180"};
+constexpr Range kRatio{.low = 1, .words = "a number from 1"};
 constexpr Range kThreads{.low = 0, .high = 4096, .words = "a whole number from 0 (all cores) to 4096"};
 
 constexpr const char* kGridGroup = "Voxel grid";
@@ -81,16 +84,51 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
   for (CLI::Option* const option : {k, voxels, band, rays, placement, cavities}) option->group(kVolumeGroup);
 }
 
-void add_lattice_flags(CLI::App& app, LatticeOptions& options) {
+namespace {
+
+/// How fine the lattice is: at most one of these.
+std::vector<CLI::Option*> add_size_flags(CLI::App& app, LatticeOptions& options) {
+  CLI::Option* const tets = add_flag(
+      app, "--tets", "N",
+      [&options](const std::string& text) {
+        options.tets = static_cast<std::size_t>(parse_whole("--tets", text, kWanted));
+      },
+      "Tets wanted: hit within 5 %, below 200 within 10 % (2000)");
+  CLI::Option* const vertices = add_flag(
+      app, "--vertices", "N",
+      [&options](const std::string& text) {
+        options.vertices = static_cast<std::size_t>(parse_whole("--vertices", text, kWanted));
+      },
+      "Vertices wanted, instead of --tets");
+  CLI::Option* const edge = add_flag(
+      app, "--edge", "L",
+      [&options](const std::string& text) { options.edge = parse_number("--edge", text, kPositive); },
+      "Mean edge of the lattice's tets in the model's unit");
   CLI::Option* const cells = add_flag(
       app, "--cells", "N",
       [&options](const std::string& text) { options.cells = parse_whole("--cells", text, kCells); },
-      "Cubic cells along the longest axis, five tets each, 1..1024\n(as many as give about 2,000 tets)");
+      "Cubic cells along the longest axis, 1..1024");
   CLI::Option* const size = add_flag(
       app, "--cell-size", "L",
       [&options](const std::string& text) { options.cell_size = parse_number("--cell-size", text, kPositive); },
-      "Edge of a cell in the model's unit, instead of --cells");
-  size->excludes(cells);
+      "Edge of a cell in the model's unit");
+  const std::vector<CLI::Option*> sizes{tets, vertices, edge, cells, size};
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) sizes[i]->excludes(sizes[j]);
+  return sizes;
+}
+
+}  // namespace
+
+void add_lattice_flags(CLI::App& app, LatticeOptions& options) {
+  for (CLI::Option* const option : add_size_flags(app, options)) option->group(kLatticeGroup);
+  CLI::Option* const kind = add_flag(
+      app, "--lattice", "five|bcc",
+      [&options](const std::string& text) {
+        if (text != "five" && text != "bcc") throw InvalidInput("--lattice " + text + ": must be five or bcc");
+        options.kind = text == "bcc" ? LatticeKind::Bcc : LatticeKind::Five;
+      },
+      "Cubes of five tets each, or body-centred cubes whose tets are\nall alike (five)");
   CLI::Option* const rho = add_flag(
       app, "--rho-min", "X",
       [&options](const std::string& text) { options.rho_min = parse_number("--rho-min", text, kShare); },
@@ -107,25 +145,42 @@ void add_lattice_flags(CLI::App& app, LatticeOptions& options) {
         options.rotate = {to_radians(degrees.x), to_radians(degrees.y), to_radians(degrees.z)};
       },
       "Rotation of the lattice in degrees about x, then y, then z,\naround the centre of the soup's box (0,0,0)");
-  for (CLI::Option* const option : {cells, size, rho, translate, rotate}) option->group(kLatticeGroup);
+  CLI::Option* const fit = app.add_flag_callback(
+      "--fit", [&options] { options.fit = Fit::Search; },
+      "Search for the shift, rotation and edge of the lattice that meet\nthe shape best");
+  for (CLI::Option* const option : {kind, rho, translate, rotate, fit}) option->group(kLatticeGroup);
 }
 
 void add_smooth_flags(CLI::App& app, SmoothOptions& options) {
   CLI::Option* const passes = add_flag(
       app, "--passes", "N",
       [&options](const std::string& text) { options.passes = parse_whole("--passes", text, kPasses); },
-      "Smoothing passes, 0..1000; 0 leaves the lattice as it is (5)");
+      "Smoothing passes, 0..1000; 0 leaves the lattice as it is (6)");
+  CLI::Option* const snap =
+      add_choice<Snap>(app, "--snap", options.snap, {{"on", Snap::Surface}, {"off", Snap::Off}},
+                       "Draw the boundary to the surface of the inside voxels; off fairs\nit only and keeps the "
+                       "lattice's volume (on)");
   CLI::Option* const strength = add_flag(
       app, "--strength", "X",
       [&options](const std::string& text) { options.strength = parse_number("--strength", text, kPositive); },
-      "Strength of a pass, above 0 (1)");
+      "Strength of a pass, above 0; with --snap off (1)");
   CLI::Option* const angle = add_flag(
       app, "--min-angle", "DEG",
       [&options](const std::string& text) {
         options.min_dihedral = to_radians(parse_number("--min-angle", text, kAngle));
       },
-      "Dihedral angle that smoothing never goes below, 0..60 (15)");
-  for (CLI::Option* const option : {passes, strength, angle}) option->group(kSmoothGroup);
+      "Dihedral angle that smoothing never goes below, 0..60 (25)");
+  CLI::Option* const obtuse = add_flag(
+      app, "--max-angle", "DEG",
+      [&options](const std::string& text) {
+        options.max_dihedral = to_radians(parse_number("--max-angle", text, kObtuse));
+      },
+      "Dihedral angle that smoothing never goes beyond, 90..180 (155)");
+  CLI::Option* const ratio = add_flag(
+      app, "--max-edge-ratio", "X",
+      [&options](const std::string& text) { options.max_edge_ratio = parse_number("--max-edge-ratio", text, kRatio); },
+      "Longest over shortest edge of a tet that smoothing never goes\nbeyond, from 1 (3.5)");
+  for (CLI::Option* const option : {passes, snap, strength, angle, obtuse, ratio}) option->group(kSmoothGroup);
 }
 
 void add_quiet_flag(CLI::App& app, bool& quiet) {

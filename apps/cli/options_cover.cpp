@@ -28,7 +28,11 @@ void add_cover_flags(CLI::App& app, LatticeOptions& options) {
   CLI::Option* const separate =
       add_choice<Separate>(app, "--separate", options.separate, {{"on", Separate::Apart}, {"off", Separate::Together}},
                            "Keep apart what passes through one cell without touching, such\nas fingers or lips (on)");
-  for (CLI::Option* const option : {thin, enclose, inside, separate}) option->group(kCoverGroup);
+  CLI::Option* const stairs =
+      add_choice<Stairs>(app, "--stairs", options.stairs, {{"even", Stairs::Even}, {"leave", Stairs::Leave}},
+                         "Where density hardly tells, drop tets that stick out and fill\nnotches, so that the boundary "
+                         "gets smoother, or leave them (even)");
+  for (CLI::Option* const option : {thin, enclose, inside, separate, stairs}) option->group(kCoverGroup);
 }
 
 void add_topology_flags(CLI::App& app, TopologyOptions& options) {

@@ -56,6 +56,8 @@ Json quality_json(const Quality& quality) {
           {"max_tet_volume", quality.max_tet_volume},
           {"min_dihedral_deg", to_degrees(quality.min_dihedral)},
           {"max_dihedral_deg", to_degrees(quality.max_dihedral)},
+          {"min_dihedral_p1_deg", to_degrees(quality.min_dihedral_p1)},
+          {"volume_variation", quality.volume_variation},
           {"dihedral_histogram", quality.dihedral_histogram},
           {"max_edge_ratio", quality.max_edge_ratio},
           {"mean_ratio_min", quality.mean_ratio_min},
@@ -67,7 +69,12 @@ Json quality_json(const Quality& quality) {
           {"non_manifold_edges", quality.non_manifold_edges},
           {"non_manifold_vertices", quality.non_manifold_vertices},
           {"boundary_manifold", quality.boundary_manifold},
-          {"boundary_only_tets", quality.boundary_only_tets}};
+          {"boundary_only_tets", quality.boundary_only_tets},
+          {"boundary_only_faces", quality.boundary_only_faces},
+          {"boundary_only_edges", quality.boundary_only_edges},
+          {"roughness_deg", to_degrees(quality.roughness)},
+          {"boundary_area", quality.boundary_area},
+          {"boundary_curvature", quality.boundary_curvature}};
 }
 
 Json seconds_json(const Timings& seconds) {
@@ -98,7 +105,7 @@ Json pseudo_volume_json(const PseudoVolumeReport& report) {
           {"band_voxels", report.band_voxels},
           {"automatic", report.automatic},
           {"floored", report.floored},
-
+          {"largest_closure", report.largest_closure},
           {"inside_voxels", report.inside_voxels},
           {"cavity_voxels", report.cavity_voxels},
           {"volume", report.volume},
@@ -134,9 +141,11 @@ Json lattice_json(const LatticeReport& report) {
           {"rotate_deg", degrees_json(report.rotate)},
           {"overlap", report.overlap},
           {"overlap_unfitted", report.overlap_unfitted},
+          {"evened_tets", report.evened_tets},
           {"thin_tets", report.thin_tets},
           {"enclosing_tets", report.enclosing_tets},
           {"doubled_tets", report.doubled_tets},
+          {"parted_vertices", report.parted_vertices},
           {"excess_volume", report.excess_volume},
           {"lacking_volume", report.lacking_volume},
           {"topology", topology_json(report.topology)}};
@@ -156,6 +165,8 @@ Json smooth_json(const SmoothReport& report) {
           {"shortened_moves", report.shortened_moves},
           {"volume_before", report.volume_before},
           {"volume_after", report.volume_after},
+          {"volume_wanted", report.volume_wanted},
+          {"snapped", report.snapped},
           {"min_dihedral_deg", to_degrees(report.min_dihedral)},
           {"boundary_volume_ratio", ratio}};
 }
@@ -172,8 +183,13 @@ Json options_json(const MeshOptions& options) {
           {"rays", volume.rays},
           {"placement", volume.placement == Placement::Closest ? "closest" : "entry"},
           {"cavities", volume.cavities == Cavities::Fill ? "fill" : "keep"},
+          {"tets", optional_json(lattice.tets)},
+          {"vertices", optional_json(lattice.vertices)},
+          {"edge", optional_json(lattice.edge)},
           {"cells", optional_json(lattice.cells)},
           {"cell_size", optional_json(lattice.cell_size)},
+          {"lattice", lattice.kind == LatticeKind::Bcc ? "bcc" : "five"},
+          {"fit", lattice.fit == Fit::Search},
           {"rho_min", lattice.rho_min},
           {"translate", vector_json(lattice.translate_cells)},
           {"rotate_deg", degrees_json(lattice.rotate)},
@@ -182,6 +198,7 @@ Json options_json(const MeshOptions& options) {
                     : lattice.cover == Cover::Enclose ? "enclose"
                                                       : "inside"},
           {"separate", lattice.separate == Separate::Apart},
+          {"stairs", lattice.stairs == Stairs::Even ? "even" : "leave"},
           {"touching", lattice.topology.touching == Touching::Mend ? "mend" : "leave"},
           {"min_part", lattice.topology.min_part},
           {"bubbles", lattice.topology.bubbles == Bubbles::Fill ? "fill" : "keep"},
@@ -190,7 +207,10 @@ Json options_json(const MeshOptions& options) {
                                                                                      : "split"},
           {"passes", options.smooth.passes},
           {"strength", options.smooth.strength},
+          {"snap", options.smooth.snap == Snap::Surface ? "on" : "off"},
           {"min_angle_deg", to_degrees(options.smooth.min_dihedral)},
+          {"max_angle_deg", to_degrees(options.smooth.max_dihedral)},
+          {"max_edge_ratio", options.smooth.max_edge_ratio},
           {"memory_limit_bytes", optional_json(options.memory_limit)},
           {"threads", thread_count()}};
 }

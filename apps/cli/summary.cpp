@@ -61,9 +61,11 @@ std::string describe_care(const LatticeReport& lattice) {
   const auto say = [&](std::size_t count, std::string_view noun, std::string_view what) {
     if (count > 0) done.push_back(counted(count, noun) + " " + std::string(what));
   };
+  say(lattice.evened_tets, "tet", "dropped or added to even the stairs");
   say(lattice.thin_tets, "tet", "kept for thin parts");
   say(lattice.enclosing_tets, "tet", "added to enclose every vertex");
   say(lattice.doubled_tets, "tet", "doubled to keep apart what does not touch");
+  say(lattice.parted_vertices, "vertex", "doubled to keep apart what does not touch");
   say(topology.bubbles_filled, "bubble", "filled");
   say(topology.parts_dropped, "crumb", "dropped (--min-part 0 keeps them)");
   say(topology.touching_mended, "place", "mended where tets merely touched");
@@ -75,6 +77,9 @@ std::string describe_lattice(const LatticeReport& lattice, const SmoothReport& s
   std::string text =
       fmt::format("Lattice: {} x {} x {} cells of edge {:.4g}; {} kept.", lattice.cells[0], lattice.cells[1],
                   lattice.cells[2], lattice.cell_size, counted(lattice.tet_count, "tet"));
+  if (lattice.overlap_unfitted > 0)
+    text += fmt::format(" The search for a fit raised the overlap with the inside voxels from {:.3f} to {:.3f}.",
+                        lattice.overlap_unfitted, lattice.overlap);
   if (smooth.passes == 0) return text + " Not smoothed.\n" + describe_care(lattice);
   return text +
          fmt::format(" Smoothed in {}{}.\n", counted(static_cast<std::size_t>(smooth.passes), "pass"),
@@ -108,10 +113,24 @@ int longest_of(const std::array<int, 3>& counts) {
   return *std::max_element(counts.begin(), counts.end());
 }
 
+/// Where the count is missed by more than was promised: shapes of a few flat sides lose or gain tets by the layer.
+void note_budget(const MeshRun& run, std::vector<std::string>& notes) {
+  const LatticeOptions& options = run.options.lattice;
+  const auto note = [&](std::size_t wanted, std::size_t got, const char* noun) {
+    const double tolerance = wanted < 200 ? 0.10 : 0.05;
+    if (std::abs(static_cast<double>(got) / static_cast<double>(wanted) - 1) <= tolerance) return;
+    notes.push_back(fmt::format("Of {} only a lattice with {} came near; shift or turn it (--translate, --rotate).",
+                                counted(wanted, noun), grouped(got)));
+  };
+  if (options.tets) note(*options.tets, run.pipeline->lattice().mesh.tets.size(), "tet");
+  if (options.vertices) note(*options.vertices, run.pipeline->lattice().mesh.vertices.size(), "vertex");
+}
+
 void note_lattice(const MeshRun& run, std::vector<std::string>& notes) {
   const LatticeReport& lattice = run.pipeline->lattice().report;
   constexpr int kMostCells = 1024, kMostVoxels = 4096;
   const int more_cells = doubled(longest_of(lattice.cells), kMostCells);
+  note_budget(run, notes);
   if (lattice.kept_by_soup) {
     notes.push_back(fmt::format(
         "No tet was filled enough (--rho-min {:.4g}), as happens with sheets and needles, so the tets that the soup "
@@ -204,6 +223,9 @@ std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& vo
   if (volume.cavity_voxels > 0)
     text += fmt::format(", {} of them in cavities that the soup encloses (--cavities keep leaves those hollow)",
                         grouped(volume.cavity_voxels));
+  text += volume.largest_closure > 0
+              ? fmt::format(". The largest hole that was closed is about {:.3g} wide", volume.largest_closure)
+              : std::string(". No hole had to be closed");
   return text + ".\n";
 }
 

@@ -43,6 +43,11 @@ enum class Touching {
   Leave,  ///< The boundary may touch itself.
 };
 
+enum class Stairs {
+  Even,  ///< Tets that stick out are dropped, notches filled, where density hardly tells: a smoother boundary.
+  Leave  ///< Density alone decides.
+};
+
 enum class Bubbles { Fill, Keep };
 
 enum class BoundaryOnly {
@@ -86,6 +91,7 @@ struct LatticeOptions {
   Vec3d rotate;           ///< Radians about x, then y, then z, around the centre of the soup's box.
   Fit fit = Fit::Off;
   double rho_min = 0.5;  ///< A tet stays if at least this share of its voxels is inside, (0, 1].
+  Stairs stairs = Stairs::Even;
   Thin thin = Thin::Keep;
   Cover cover = Cover::Density;
   Separate separate = Separate::Apart;
@@ -106,11 +112,13 @@ struct LatticeReport {
   Vec3d translate_cells, rotate;   ///< The frame that was taken.
   double overlap = 0;              ///< IoU of the kept tets with the pseudo volume,
   double overlap_unfitted = 0;     ///< and with the frame as given, where one was searched for.
+  std::size_t evened_tets = 0;     ///< Dropped where they stuck out, or added to fill a notch, for a smoother boundary.
   std::size_t thin_tets = 0;       ///< Kept because a piece of the soup would have lost its cover.
   std::size_t enclosing_tets = 0;  ///< Kept to enclose the soup's vertices.
-  std::size_t doubled_tets = 0;    ///< Copies made to keep apart what is apart.
-  double excess_volume = 0;        ///< Of the mesh, outside the pseudo volume,
-  double lacking_volume = 0;       ///< and of the pseudo volume, outside the mesh.
+  std::size_t doubled_tets = 0;    ///< Copies made to keep apart what is apart,
+  std::size_t parted_vertices = 0;  ///< and vertices doubled between tets that stay what they were.
+  double excess_volume = 0;         ///< Of the mesh, outside the pseudo volume,
+  double lacking_volume = 0;        ///< and of the pseudo volume, outside the mesh.
   TopologyReport topology;
 };
 

@@ -21,7 +21,8 @@ enum class Placement {
 
 /// What becomes of space that the rays call outside although the soup encloses it.
 enum class Cavities {
-  Fill,  ///< It is inside: overlapping closed parts become their union, nested shells become solid.
+  Fill,  ///< It is inside: overlapping closed parts become their union, nested shells become solid. Holes up to the
+         ///< band let nothing in.
   Keep,  ///< It stays outside, as parity has it: the overlap of two closed parts is hollow.
 };
 
@@ -39,7 +40,7 @@ struct PseudoVolumeOptions {
 /// One candidate of the automatic choice.
 struct BandScore {
   double band_voxels = 0;
-  double score = 0;      ///< What the choice maximises, 0..1 (docs/METHOD.md).
+  double score = 0;      ///< What the choice maximises (docs/METHOD.md).
   double consensus = 0;  ///< Mean of |2 votes / rays - 1| over all voxels.
 };
 
@@ -53,6 +54,9 @@ struct PseudoVolumeReport {
   /// The automatic choice is not over: wider candidates would need the distance known this far, in voxels.
   std::optional<double> wants_band_voxels;
   std::size_t cavity_voxels = 0;  ///< Voxels that were added because the soup encloses them.
+  /// Diameter of the largest hole that was closed: twice the largest distance between the soup and the surface of the
+  /// inside; 0 where that is nowhere farther than 0.9 voxels. Where it is small beside the model, little was assumed.
+  double largest_closure = 0;
   double soup_covered = 1;  ///< Share of the voxels the soup passes through that have an inside voxel beside them.
   std::size_t inside_voxels = 0;
   double volume = 0;     ///< Of the inside voxels.

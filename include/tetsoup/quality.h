@@ -18,8 +18,10 @@ struct Quality {
   std::size_t invalid_tets = 0;     ///< Index out of range, or a vertex used twice: counted, otherwise ignored.
   std::size_t unused_vertices = 0;  ///< Of no tet, or of invalid tets only.
   double volume = 0;                ///< Sum of the signed volumes; those that are not finite are left out.
-  double min_tet_volume = 0, max_tet_volume = 0;                ///< Signed; of the finite ones.
+  double min_tet_volume = 0, max_tet_volume = 0;  ///< Signed; of the finite ones.
+  double volume_variation = 0;  ///< Standard deviation of the tets' volumes over their mean; of the positive ones.
   double min_dihedral = 0, max_dihedral = 0;                    ///< Radians; over all tets with a volume, of any sign.
+  double min_dihedral_p1 = 0;                                   ///< One tet in a hundred has a smallest angle below it.
   std::array<std::size_t, kDihedralBins> dihedral_histogram{};  ///< Six angles a tet.
   double max_edge_ratio = 0;  ///< Longest over shortest edge of a tet, worst tet with a volume.
   /// 12 (3 V)^(2/3) / sum of squared edges: 1 = regular, 0 = flat or inverted.
@@ -32,6 +34,13 @@ struct Quality {
   std::size_t non_manifold_vertices = 0;  ///< Boundary vertices whose boundary triangles do not form one fan.
   bool boundary_manifold = false;         ///< Closed, and neither of the two above.
   std::size_t boundary_only_tets = 0;     ///< All four vertices on the boundary.
+  std::size_t boundary_only_faces = 0;    ///< Interior faces with three vertices on the boundary,
+  std::size_t boundary_only_edges = 0;    ///< and interior edges with two: they stiffen what bends, and lock contacts.
+  double roughness = 0;  ///< Radians; mean angle between the normals of boundary triangles that share an edge.
+  double boundary_area = 0;
+  /// Integral of the boundary's mean curvature without its sign: half the sum of length x angle over its edges. Unlike
+  /// the roughness it does not depend on how finely a smooth surface is divided.
+  double boundary_curvature = 0;
 };
 
 /// Measures a mesh, valid or not. Never throws on geometry; where there is nothing to measure a number stays 0.
@@ -41,6 +50,17 @@ Quality measure_quality(const TetMesh& mesh);
 /// The mesh's outer and inner boundary triangles (faces of exactly one tet), counter-clockwise from outside a positive
 /// tet, indices into the mesh's vertices, in the order of the tets. Invalid tets have none.
 std::vector<Triangle> boundary_triangles(const TetMesh& mesh);
+
+/// How far a mesh's boundary lies from a soup.
+struct BoundaryDistance {
+  double mean = 0;          ///< Over the boundary's area,
+  double percentile95 = 0;  ///< and what 95 % of it is within.
+};
+
+/// Distance from points all over the boundary (10 a triangle, weighted by area) to the nearest point of the soup, in
+/// multiples of `unit`, such as the mean edge of the lattice. All 0 if either is empty.
+/// Cost: O((boundary + triangles) log triangles); all threads.
+BoundaryDistance boundary_distance(const TetMesh& mesh, const TriangleSoup& soup, double unit);
 
 /// Intersection over union of the voxels whose centre lies in the mesh with the `inside` voxels; 1 if both are empty.
 ///

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tetsoup/progress.h"
@@ -10,19 +11,38 @@
 
 namespace tetsoup {
 
+/// What the boundary is drawn to.
+enum class Snap {
+  Surface,  ///< The surface of the pseudo volume, where one is given.
+  Off,      ///< Nothing: it is only faired.
+};
+
 struct SmoothOptions {
-  int passes = 5;       ///< 0..1000; 0 leaves the mesh as it is.
-  double strength = 1;  ///< Time step of the fairing in squared mean edge lengths, > 0 [Desbrun99 §3].
-  double min_dihedral = 0.26179938779914943;  ///< Quality floor (15 degrees), radians in [0, pi/3).
+  int passes = 6;       ///< 0..1000; 0 leaves the mesh as it is.
+  double strength = 1;  ///< Of the fairing, > 0 [Desbrun99 §3]; 1: a time step of one squared edge.
+  double min_dihedral = 0.4363323129985824;  ///< Least dihedral angle (25 degrees), radians in [0, pi/3).
+  double max_dihedral = 2.705260340591211;   ///< Largest dihedral angle (155 degrees), radians in [pi/2, pi].
+  double max_edge_ratio = 3.5;               ///< Longest over shortest edge of a tet, >= 1.
+  Snap snap = Snap::Surface;
   bool operator==(const SmoothOptions&) const = default;
+};
+
+/// What smoothing may know besides the mesh.
+struct SmoothTarget {
+  const BitGrid* inside = nullptr;  ///< The pseudo volume whose surface the boundary is drawn to.
+  std::span<const Vec3> enclosed;   ///< Those of them that lie in the mesh at the start stay in it.
 };
 
 struct SmoothReport {
   int passes = 0;
+  bool snapped = false;  ///< The boundary was drawn to the pseudo volume.
   std::size_t boundary_vertices = 0;
-  std::size_t shortened_moves = 0;  ///< Moves the floor cut short, over all passes.
+  std::size_t shortened_moves = 0;  ///< Moves the limits cut short, over all passes.
   double volume_before = 0;
-  double volume_after = 0;  ///< Within 1e-4 of volume_before, relatively.
+  double volume_after = 0;
+  /// What the volume should be: that before, kept within 1e-4; snapped, that of the pseudo volume, if the mesh began
+  /// within a tenth of it (else it is what the fit gives, and this is 0).
+  double volume_wanted = 0;
   double min_dihedral = 0;  ///< After smoothing, radians.
   /// For each boundary vertex, in ascending vertex order: volume of the tets around it, after over before.
   std::vector<float> boundary_volume_ratio;
@@ -37,12 +57,22 @@ struct SmoothResult {
 ///
 /// Each pass solves (I - lambda L) x' = x for the boundary [Desbrun99 §3], pushes the locally lost volume back along
 /// the normals [Spillmann06 §4], and relaxes the interior to the average of its neighbours. Every move is shortened
-/// until no tet around it is inverted or has a dihedral angle below the floor (or below what it had, where that was
-/// lower). Swept volume counts from the start, so many passes converge. In the end every part of the mesh (tets joined
-/// through vertices) has its volume again; one that cannot within the limits goes back towards its start until it can.
+/// until no tet around it is inverted or beyond a limit (or beyond what it had, where that was worse). Swept volume
+/// counts from the start, so many passes converge. In the end every part of the mesh (tets joined through vertices) has
+/// its volume again; one that cannot within the limits goes back towards its start until it can.
 ///
 /// @throws InvalidInput  if an option is out of range or a tet of the input is not positive; Cancelled.
 /// Cost: O(passes x tets), O(tets) memory.
 SmoothResult smooth_tets(const TetMesh& mesh, const SmoothOptions& options = {}, const Progress& progress = {});
+
+/// The same, or with Snap::Surface and a target: fits the boundary's triangles to the surface of the pseudo volume.
+///
+/// Each pass looks from points of every boundary triangle for the surface, then moves every vertex once to the least
+/// of three things weighed against each other: the distance of the triangles around it from there, the bending of the
+/// boundary, and the shape of its tets, 1 / q^3 with the mean ratio q. All moves keep the limits as above. The volume
+/// of the whole comes out as that of the pseudo volume.
+/// Cost: O(passes x tets), whatever the size of the grid.
+SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const SmoothOptions& options = {},
+                         const Progress& progress = {});
 
 }  // namespace tetsoup

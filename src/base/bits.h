@@ -69,6 +69,24 @@ class BitRows {
     }
     return middle | middle << 1 | middle >> 1 | below >> 63 | above << 63;
   }
+  /// Bits of word `w` of a row that have a set and a clear bit among their 27 neighbours; beyond the grid all are
+  /// clear.
+  std::uint64_t mixed(int y, int z, std::size_t w) const {
+    std::uint64_t any = 0, any_below = 0, any_above = 0;  // of the nine rows, as in grown()
+    std::uint64_t all = ~std::uint64_t{0}, all_below = all, all_above = all;
+    for (int dz = -1; dz <= 1; ++dz) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        const std::uint64_t* row = at(y + dy, z + dz);
+        const bool first = row == nullptr || w == 0, last = row == nullptr || w + 1 == bits_.words_per_row;
+        const std::uint64_t here = row == nullptr ? 0 : row[w], before = first ? 0 : row[w - 1],
+                            after = last ? 0 : row[w + 1];
+        any |= here, any_below |= before, any_above |= after;
+        all &= here, all_below &= before, all_above &= after;
+      }
+    }
+    const std::uint64_t set = any | any << 1 | any >> 1 | any_below >> 63 | any_above << 63;
+    return set & ~(all & (all << 1 | all_below >> 63) & (all >> 1 | all_above << 63));
+  }
 
  private:
   const BitGrid& bits_;

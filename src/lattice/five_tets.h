@@ -22,10 +22,6 @@ inline constexpr std::array<std::array<unsigned, 4>, kTetsPerCell> kEvenTets{{
     {0b111, 0b110, 0b011, 0b101},
 }};
 
-inline bool is_odd(const Cell& cell) {
-  return ((cell[0] + cell[1] + cell[2]) & 1) != 0;
-}
-
 /// Cube corners of a tet; odd cells are mirrored along x, and two corners swapped to stay positive.
 inline std::array<unsigned, 4> tet_corners(std::size_t tet, bool odd) {
   std::array<unsigned, 4> c = kEvenTets[tet];

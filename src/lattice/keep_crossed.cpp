@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/tet_geometry.h"
-#include "lattice/kept_cells.h"
+#include "lattice/densities.h"
 
 namespace tetsoup {
 namespace {
@@ -48,7 +48,11 @@ bool touches(const Corners3& triangle, const TetCorners& tet) {
 /// Finds the tets that one triangle touches by halving its box of cells.
 class CrossedTets {
  public:
-  CrossedTets(const Corners3& triangle, std::vector<KeptCell>& found) : triangle_(triangle), found_(found) {
+  CrossedTets(const Corners3& triangle, const LatticeTable& table, std::vector<FilledCell>& found)
+      : triangle_(triangle),
+        table_(table),
+        overhang_(static_cast<double>(table.reach) / kStepsPerCell - 1),
+        found_(found) {
     normal_ = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
     const double size = length(normal_);
     if (size > 0) normal_ = normal_ * (1 / size);
@@ -57,7 +61,7 @@ class CrossedTets {
   void search() {
     const Vec3d lo = min(min(triangle_[0], triangle_[1]), triangle_[2]);
     const Vec3d hi = max(max(triangle_[0], triangle_[1]), triangle_[2]);
-    const auto first = [](double v) { return static_cast<int>(std::floor(v - kTouching)); };
+    const auto first = [&](double v) { return static_cast<int>(std::floor(v - overhang_ - kTouching)); };
     const auto last = [](double v) { return static_cast<int>(std::floor(v + kTouching)) + 1; };
     halve({first(lo.x), first(lo.y), first(lo.z)}, {last(hi.x), last(hi.y), last(hi.z)});
   }
@@ -81,6 +85,7 @@ class CrossedTets {
   bool is_off_plane(const Cell& begin, const Cell& end) const {
     Vec3d lo{static_cast<double>(begin[0]), static_cast<double>(begin[1]), static_cast<double>(begin[2])};
     Vec3d hi{static_cast<double>(end[0]), static_cast<double>(end[1]), static_cast<double>(end[2])};
+    hi += Vec3d{overhang_, overhang_, overhang_};
     const Vec3d half = (hi - lo) * 0.5;
     const double reach = std::abs(normal_.x) * half.x + std::abs(normal_.y) * half.y + std::abs(normal_.z) * half.z;
     return std::abs(dot(normal_, lo + half - triangle_[0])) > reach + kTouching;
@@ -90,31 +95,32 @@ class CrossedTets {
     const Vec3d base{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
     const bool odd = is_odd(cell);
     unsigned kept = 0;
-    for (std::size_t t = 0; t < kTetsPerCell; ++t) {
-      TetCorners corners;
-      const auto names = tet_corners(t, odd);
-      for (std::size_t i = 0; i < 4; ++i) corners[i] = base + corner_offset(names[i]);
+    for (std::size_t t = 0; t < table_.tet_count; ++t) {
+      TetCorners corners = table_.corners(t, odd);
+      for (Vec3d& p : corners) p += base;
       kept |= static_cast<unsigned>(touches(triangle_, corners)) << t;
     }
-    if (kept != 0) found_.push_back({cell, static_cast<std::uint8_t>(kept)});
+    if (kept != 0) found_.push_back({cell, static_cast<std::uint16_t>(kept)});
   }
 
   Corners3 triangle_;
   Vec3d normal_;
-  std::vector<KeptCell>& found_;
+  const LatticeTable& table_;
+  double overhang_;  ///< How far a cell's tets reach beyond its upper faces, in cells.
+  std::vector<FilledCell>& found_;
 };
 
-bool in_lattice_order(const KeptCell& a, const KeptCell& b) {
+bool in_lattice_order(const FilledCell& a, const FilledCell& b) {
   return std::array{a.cell[2], a.cell[1], a.cell[0]} < std::array{b.cell[2], b.cell[1], b.cell[0]};
 }
 
 /// One entry a cell, in order.
-void merge_cells(std::vector<KeptCell>& cells) {
+void merge_cells(std::vector<FilledCell>& cells) {
   std::stable_sort(cells.begin(), cells.end(), in_lattice_order);
   std::size_t count = 0;
-  for (const KeptCell& c : cells) {
+  for (const FilledCell& c : cells) {
     if (count > 0 && cells[count - 1].cell == c.cell) {
-      cells[count - 1].tets |= c.tets;
+      cells[count - 1].kept |= c.kept;
     } else {
       cells[count++] = c;
     }
@@ -122,27 +128,54 @@ void merge_cells(std::vector<KeptCell>& cells) {
   cells.resize(count);
 }
 
-}  // namespace
-
-KeptCells keep_crossed_tets(const CleanSoup& soup, const LatticeFrame& frame, StageWatch& watch) {
+std::vector<FilledCell> crossed_cells(const CleanSoup& soup, const LatticeFrame& frame, const LatticeTable& table,
+                                      StageWatch& watch) {
   constexpr std::size_t kMergeAt = 1 << 20;  // cells found before duplicates are merged
   const auto& vertices = soup.soup.vertices;
-  KeptCells all;
+  std::vector<FilledCell> cells;
   std::size_t done = 0, merge_at = kMergeAt;
   for (const Triangle& t : soup.soup.triangles) {
     CrossedTets({frame.to_cell(to_double(vertices[t[0]])), frame.to_cell(to_double(vertices[t[1]])),
                  frame.to_cell(to_double(vertices[t[2]]))},
-                all.cells)
+                table, cells)
         .search();
-    if (all.cells.size() > merge_at) {
-      merge_cells(all.cells);
-      merge_at = 2 * all.cells.size() + kMergeAt;
+    if (cells.size() > merge_at) {
+      merge_cells(cells);
+      merge_at = 2 * cells.size() + kMergeAt;
     }
     if (++done % 256 == 0) watch.step(static_cast<double>(done) / static_cast<double>(soup.soup.triangles.size()));
   }
-  merge_cells(all.cells);
-  for (const KeptCell& c : all.cells) all.tet_count += static_cast<std::size_t>(std::popcount(c.tets));
-  return all;
+  merge_cells(cells);
+  return cells;
+}
+
+}  // namespace
+
+void keep_crossed_tets(const CleanSoup& soup, const LatticeFrame& frame, const LatticeTable& table, FilledCells& filled,
+                       StageWatch& watch) {
+  const std::vector<FilledCell> crossed = crossed_cells(soup, frame, table, watch);
+  FilledCells all;
+  all.sampled_tets = filled.sampled_tets;
+  const std::size_t tets = table.tet_count;
+  std::size_t f = 0, c = 0;
+  while (f < filled.cells.size() || c < crossed.size()) {
+    const bool takes_filled =
+        f < filled.cells.size() && (c == crossed.size() || !in_lattice_order(crossed[c], filled.cells[f]));
+    const bool takes_crossed =
+        c < crossed.size() && (f == filled.cells.size() || !in_lattice_order(filled.cells[f], crossed[c]));
+    const Cell cell = takes_filled ? filled.cells[f].cell : crossed[c].cell;
+    all.cells.push_back({cell, takes_crossed ? crossed[c].kept : std::uint16_t{0}});
+    all.kept_tets += static_cast<std::size_t>(std::popcount(all.cells.back().kept));
+    const auto known = filled.densities.begin() + static_cast<std::ptrdiff_t>(f * tets);
+    if (takes_filled) {
+      all.densities.insert(all.densities.end(), known, known + static_cast<std::ptrdiff_t>(tets));
+    } else {
+      all.densities.insert(all.densities.end(), tets, 0.0F);
+    }
+    f += takes_filled;
+    c += takes_crossed;
+  }
+  filled = std::move(all);
 }
 
 }  // namespace tetsoup

@@ -5,11 +5,23 @@
 #include <cstdint>
 
 #include "base/vec.h"
-#include "tetsoup/lattice.h"
+#include "tetsoup/types.h"
 
 namespace tetsoup {
 
 using Cell = std::array<int, 3>;
+
+inline bool is_odd(const Cell& cell) {
+  return ((cell[0] + cell[1] + cell[2]) & 1) != 0;
+}
+
+/// How a lattice lies over the grid.
+struct Pose {
+  double cell_size = 1;
+  Vec3d translate_cells;  ///< Of a cell.
+  Vec3d rotate;           ///< Radians about x, then y, then z, around the centre of the soup's box.
+  bool operator==(const Pose&) const = default;
+};
 
 /// Cell coordinates of a point are three numbers; their whole parts name the cell. Without translation, cells [0,
 /// count) lie centred over the soup's box.
@@ -19,7 +31,7 @@ struct LatticeFrame {
   Vec3d centre;               ///< Of the soup's box.
   Vec3d centre_cell;          ///< Cell coordinates of the centre.
   Cell count{};               ///< Cells over the box.
-  Cell begin{}, end{};        ///< Cells over the whole grid, padding included.
+  Cell begin{}, end{};        ///< Cells whose tets cover the whole grid, padding included.
 
   Vec3d to_cell(const Vec3d& point) const {
     const Vec3d p = (point - centre) * (1 / cell_size);
@@ -34,7 +46,8 @@ struct LatticeFrame {
 /// The box of the grid's voxels without padding: the soup's own box, or a voxel where that has no extent.
 Box3 grid_box(const GridFrame& grid);
 
-LatticeFrame make_lattice_frame(const GridFrame& grid, const LatticeOptions& options, double cell_size);
+/// `overhang`: how far a cell's tets reach beyond its upper faces, in cells.
+LatticeFrame make_lattice_frame(const GridFrame& grid, const Pose& pose, double overhang = 0);
 
 /// Smallest cell edge at which single-precision vertices of this grid's space still make well-shaped tets.
 double finest_cell_size(const GridFrame& grid);

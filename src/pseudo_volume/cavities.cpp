@@ -1,9 +1,12 @@
 #include "pseudo_volume/cavities.h"
 
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/bits.h"
+#include "pseudo_volume/unpadded.h"
 
 namespace tetsoup {
 namespace {
@@ -38,17 +41,19 @@ class Flood {
 
   BitGrid run(StageWatch& watch) {
     seed_border();
-    // Up and down the whole grid once reaches nearly all; what is left lies round corners.
+    // Up and down the whole grid once reaches nearly all; what is left lies round corners. On the way down a row misses
+    // only what rows below it do later.
     for (std::size_t row = 0; row < rows_; ++row) {
       visit(row);
       if (row % 4096 == 0) watch.step(0);
     }
+    std::vector<std::size_t> pending;
     for (std::size_t row = rows_; row-- > 0;) {
-      visit(row);
+      if (visit(row))
+        for (const std::size_t other : rows_beside(row))
+          if (other > row) pending.push_back(other);
       if (row % 4096 == 0) watch.step(0);
     }
-    std::vector<std::size_t> pending;
-    for (std::size_t row = 0; row < rows_; ++row) pending.push_back(row);
     for (std::size_t steps = 0; !pending.empty(); ++steps) {
       const std::size_t row = pending.back();
       pending.pop_back();
@@ -104,37 +109,58 @@ class Flood {
   std::size_t words_, rows_y_, rows_;
 };
 
-}  // namespace
+/// One word of a row: its place in the grid's words, and where that is.
+struct Place {
+  std::size_t i = 0, w = 0;
+  int y = 0, z = 0;
+};
 
-std::size_t fill_cavities(BitGrid& inside, const BitGrid& near_soup, StageWatch& watch) {
-  const std::size_t words = inside.words_per_row;
-  const auto ny = static_cast<std::int64_t>(inside.frame.size[1]);
-  const std::int64_t rows = ny * inside.frame.size[2];
-  const auto for_words = [&](std::int64_t begin, std::int64_t end, const auto& body) {
-    for (std::size_t i = static_cast<std::size_t>(begin) * words; i < static_cast<std::size_t>(end) * words; ++i)
-      body(i);
-  };
+/// Calls body(place) for all words of rows begin to end - 1.
+template <class Body>
+void for_words(const BitGrid& grid, std::int64_t begin, std::int64_t end, const Body& body) {
+  Place at{static_cast<std::size_t>(begin) * grid.words_per_row, 0, static_cast<int>(begin % grid.frame.size[1]),
+           static_cast<int>(begin / grid.frame.size[1])};
+  for (std::int64_t row = begin; row < end; ++row) {
+    for (at.w = 0; at.w < grid.words_per_row; ++at.w, ++at.i) body(at);
+    if (++at.y == grid.frame.size[1]) at.y = 0, ++at.z;
+  }
+}
+
+std::int64_t row_count(const BitGrid& grid) {
+  return static_cast<std::int64_t>(grid.frame.size[1]) * grid.frame.size[2];
+}
+
+/// The outside voxels that no barrier holds.
+template <class Barrier>
+BitGrid free_of(const BitGrid& inside, StageWatch& watch, const Barrier& barrier) {
   BitGrid free = make_bit_grid(inside.frame);
-  parallel_for(rows, kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
-    for_words(begin, end, [&](std::size_t i) {
-      free.words[i] = ~inside.words[i] & ~near_soup.words[i] & row_mask(inside.frame.size[0], i % words);
+  parallel_for(row_count(free), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
+    for_words(free, begin, end, [&](const Place& at) {
+      free.words[at.i] = ~inside.words[at.i] & ~barrier(at) & row_mask(free.frame.size[0], at.w);
     });
   });
-  const BitGrid reached = Flood(free).run(watch);
+  return free;
+}
 
-  BitGrid& cavity = free;
-  std::vector<char> has_cavity(static_cast<std::size_t>(rows));
-  auto added = parallel_sum<std::size_t>(rows, kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
+/// Keeps of `free` what the flood has not reached. Returns how much, and marks the rows that hold any.
+std::size_t keep_unreached(BitGrid& free, const BitGrid& reached, std::vector<char>& rows_with_any, StageWatch& watch) {
+  rows_with_any.assign(static_cast<std::size_t>(row_count(free)), 0);
+  return parallel_sum<std::size_t>(row_count(free), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     std::size_t count = 0;
-    for_words(begin, end, [&](std::size_t i) {
-      cavity.words[i] &= ~reached.words[i];
-      if (cavity.words[i] == 0) return;
-      count += bit_count(cavity.words[i]);
-      has_cavity[i / words] = 1;
+    for_words(free, begin, end, [&](const Place& at) {
+      free.words[at.i] &= ~reached.words[at.i];
+      if (free.words[at.i] == 0) return;
+      count += bit_count(free.words[at.i]);
+      rows_with_any[at.i / free.words_per_row] = 1;
     });
     return count;
   });
-  if (added == 0) return 0;
+}
+
+/// Adds cavities to the inside, and the sealed voxels between the two. Returns how many voxels the latter are.
+std::size_t add_with_crust(BitGrid& inside, const BitGrid& cavity, const std::vector<char>& has_cavity,
+                           const BitGrid& reached, const BitGrid& sealed, StageWatch& watch) {
+  const auto ny = static_cast<std::int64_t>(inside.frame.size[1]);
   const BitRows cavities(cavity), outside(reached);
   const auto is_beside_cavity = [&](int y, int z) {
     for (int dz = -1; dz <= 1; ++dz)
@@ -142,22 +168,70 @@ std::size_t fill_cavities(BitGrid& inside, const BitGrid& near_soup, StageWatch&
         if (cavities.at(y + dy, z + dz) && has_cavity[static_cast<std::size_t>((z + dz) * ny + y + dy)]) return true;
     return false;
   };
-  added += parallel_sum<std::size_t>(rows, kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
+  return parallel_sum<std::size_t>(row_count(inside), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
     std::size_t count = 0;
     for (std::int64_t row = begin; row < end; ++row) {
       const int y = static_cast<int>(row % ny), z = static_cast<int>(row / ny);
       if (!is_beside_cavity(y, z)) continue;
-      for_words(row, row + 1, [&](std::size_t i) {
-        const std::uint64_t around = cavities.grown(y, z, i % words);
+      for_words(inside, row, row + 1, [&](const Place& at) {
+        const std::uint64_t around = cavities.grown(y, z, at.w);
         if (around == 0) return;
-        const std::uint64_t crust = around & ~outside.grown(y, z, i % words) & near_soup.words[i] & ~inside.words[i];
+        const std::uint64_t crust = around & ~outside.grown(y, z, at.w) & sealed.words[at.i] & ~inside.words[at.i];
         count += bit_count(crust);
-        inside.words[i] |= cavity.words[i] | crust;
+        inside.words[at.i] |= cavity.words[at.i] | crust;
       });
     }
     return count;
   });
-  return added;
+}
+
+/// One step through faces: what touches `from` within `free`, but for what is `taken`.
+void seep(BitGrid& from, const BitGrid& free, const BitGrid& taken, StageWatch& watch) {
+  const BitGrid before = from;
+  const BitRows rows(before);
+  const std::size_t words = from.words_per_row;
+  parallel_for(row_count(from), kRowsAtOnce, watch, [&](std::int64_t begin, std::int64_t end) {
+    for_words(from, begin, end, [&](const Place& at) {
+      const std::uint64_t open = free.words[at.i] & ~before.words[at.i] & ~taken.words[at.i];
+      if (open == 0) return;
+      const std::uint64_t* here = rows.at(at.y, at.z);
+      std::uint64_t around = shifted_up(here, at.w) | shifted_down(here, at.w, words);
+      for (const std::uint64_t* beside :
+           {rows.at(at.y - 1, at.z), rows.at(at.y + 1, at.z), rows.at(at.y, at.z - 1), rows.at(at.y, at.z + 1)})
+        if (beside != nullptr) around |= beside[at.w];
+      from.words[at.i] |= open & around;
+    });
+  });
+}
+
+}  // namespace
+
+std::size_t fill_cavities(BitGrid& inside, const BitGrid& sealed, StageWatch& watch) {
+  BitGrid cavity = free_of(inside, watch, [&](const Place& at) { return sealed.words[at.i]; });
+  const BitGrid reached = Flood(cavity).run(watch);
+  std::vector<char> has_cavity;
+  const std::size_t added = keep_unreached(cavity, reached, has_cavity, watch);
+  return added == 0 ? 0 : added + add_with_crust(inside, cavity, has_cavity, reached, sealed, watch);
+}
+
+std::size_t fill_rooms(BitGrid& inside, const BitGrid& sealed, const BitGrid& band, double band_voxels,
+                       StageWatch& watch) {
+  const Unpadded unpadded(inside.frame);
+  BitGrid rooms =
+      free_of(inside, watch, [&](const Place& at) { return band.words[at.i] & unpadded.at(at.w, at.y, at.z); });
+  BitGrid reached = Flood(rooms).run(watch);
+  std::vector<char> has_room;
+  if (keep_unreached(rooms, reached, has_room, watch) == 0) return 0;
+
+  // Both take the space in the band from their sides, up to the soup: as many steps as a diagonal through it has.
+  const BitGrid free = free_of(inside, watch, [&](const Place& at) { return sealed.words[at.i]; });
+  const int steps = static_cast<int>(std::ceil(std::numbers::sqrt3 * band_voxels));
+  for (int step = 0; step < steps; ++step) {
+    seep(reached, free, rooms, watch);
+    seep(rooms, free, reached, watch);
+  }
+  const std::size_t added = keep_unreached(rooms, reached, has_room, watch);
+  return added + add_with_crust(inside, rooms, has_room, reached, sealed, watch);
 }
 
 }  // namespace tetsoup

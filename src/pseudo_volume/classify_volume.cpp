@@ -6,6 +6,7 @@
 #include "base/require.h"
 #include "pseudo_volume/band_bits.h"
 #include "pseudo_volume/cavities.h"
+#include "pseudo_volume/largest_closure.h"
 #include "pseudo_volume/rays.h"
 #include "pseudo_volume/score.h"
 #include "tetsoup/pseudo_volume.h"
@@ -18,21 +19,22 @@ constexpr double kFloorVoxels = 0.9;
 /// Voxels beyond the band whose distances are compared: a diagonal step, and a little for rounding.
 constexpr double kReachVoxels = 1.74;
 /// Bands that the automatic choice tries, in voxels, from narrow to wide.
-constexpr std::array<double, 10> kCandidates{0.9, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
+constexpr std::array<double, 13> kCandidates{0.9, 1.25, 1.5, 1.75, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8};
 /// Known distance is asked for in these steps, since it costs more than trying a candidate: sound surfaces need the
 /// first.
 constexpr std::array<double, 3> kTiers{1.5, 3, 8};
-/// The choice ends once this many candidates in a row did worse than the best, if the best is sound: below that score,
-/// votes are speckle or nothing, and the best may lie anywhere.
+/// The choice ends once this many candidates in a row did worse than the best: the score rises while holes close and
+/// falls once the soup is buried.
 constexpr std::size_t kWorseInARow = 2;
-constexpr double kSoundScore = 0.45;
 constexpr double kTrialsShare = 0.95;  ///< Of the stage's time, for progress.
 
 /// What one band gives.
 struct Trial {
   VoteGrid votes;
-  BitGrid inside;
+  BitGrid inside;  ///< With its cavities filled, if asked for.
   VoteStatistics statistics;
+  double surface_share = 0;  ///< Before cavities are filled.
+  std::size_t cavity_voxels = 0;
 };
 
 void check_options(const PseudoVolumeOptions& options) {
@@ -68,8 +70,8 @@ bool is_useful(const DistanceField& field, double band_voxels) {
 /// Votes with one band after the other; what does not depend on the band is found once.
 class Trials {
  public:
-  Trials(const DistanceField& field, const PseudoVolumeOptions& options, StageWatch& watch)
-      : distance_(field.distance), options_(options), watch_(watch) {}
+  Trials(const DistanceField& field, const PseudoVolumeOptions& options, const SoupMarks& marks, StageWatch& watch)
+      : distance_(field.distance), options_(options), marks_(marks), watch_(watch) {}
 
   /// Overwrites `trial`, and takes its memory. The watch's part is covered from `begin` to `end`.
   void run(double band_voxels, Trial& trial, double begin, double end) {
@@ -81,6 +83,12 @@ class Trials {
     if (trial.inside.words.empty()) trial.inside = make_bit_grid(distance_.frame);
     cast_rays(band, *events_, options_.rays, trial.votes, watch_, begin, end);
     trial.statistics = count_votes(trial.votes, options_.rays, trial.inside, watch_);
+    trial.surface_share = surface_share(trial.inside, marks_.touched, watch_);
+    trial.cavity_voxels = 0;
+    if (options_.cavities == Cavities::Keep) return;
+    trial.cavity_voxels = fill_cavities(trial.inside, marks_.sealed, watch_);
+    if (band_voxels > kFloorVoxels)
+      trial.cavity_voxels += fill_rooms(trial.inside, marks_.sealed, band.bits, band_voxels, watch_);
   }
 
  private:
@@ -115,19 +123,20 @@ class Trials {
 
   const BlockGrid& distance_;
   const PseudoVolumeOptions& options_;
+  const SoupMarks& marks_;
   StageWatch& watch_;
   std::optional<EventStore> events_;
 };
 
 /// Tries the candidates from narrow to wide and keeps the first of the best. The rule never looks at how far the field
 /// is known: where that is not far enough to decide, the report asks for more.
-void choose_band(const DistanceField& field, Trials& trials, const SoupMarks& marks, StageWatch& watch,
-                 PseudoVolumeReport& report, Trial& best) {
+void choose_band(const DistanceField& field, Trials& trials, StageWatch& watch, PseudoVolumeReport& report,
+                 Trial& best) {
   double best_score = -1;
   std::size_t worse = 0;
   Trial trial;
   for (const double band : kCandidates) {
-    if (!is_useful(field, band) || (worse >= kWorseInARow && best_score >= kSoundScore)) break;
+    if (!is_useful(field, band) || worse >= kWorseInARow) break;
     if (!is_served(field, band)) {
       report.wants_band_voxels = *std::lower_bound(kTiers.begin(), kTiers.end(), band) + kReachVoxels;
       break;
@@ -135,7 +144,7 @@ void choose_band(const DistanceField& field, Trials& trials, const SoupMarks& ma
     const double tried = static_cast<double>(report.candidates.size());
     const auto part = [&](double n) { return kTrialsShare * n / static_cast<double>(kCandidates.size()); };
     trials.run(band, trial, part(tried), part(tried + 1));
-    const double score = score_votes(trial.inside, marks, trial.statistics, watch);
+    const double score = score_solid(trial.surface_share, trial.inside, trial.statistics, watch);
     report.candidates.push_back({band, score, trial.statistics.consensus});
     ++worse;
     if (score > best_score) {
@@ -167,7 +176,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   const GridFrame& frame = field.distance.frame;
   StageWatch watch(progress, "pseudo_volume");
   const SoupMarks marks = mark_soup(field.distance, watch);
-  Trials trials(field, options, watch);
+  Trials trials(field, options, marks, watch);
 
   PseudoVolume result;
   result.rays = options.rays;
@@ -175,7 +184,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   Trial trial;
   if (is_automatic(options)) {
     report.automatic = true;
-    choose_band(field, trials, marks, watch, report, trial);
+    choose_band(field, trials, watch, report, trial);
   } else {
     const double asked = asked_band_voxels(field, options);
     report.floored = asked < kFloorVoxels;
@@ -187,10 +196,11 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   }
 
   watch.enter_part(kTrialsShare, 1);
-  if (options.cavities == Cavities::Fill && !report.wants_band_voxels)
-    report.cavity_voxels = fill_cavities(trial.inside, marks.sealed, watch);
+  report.cavity_voxels = trial.cavity_voxels;
   report.inside_voxels = count_voxels(trial.inside);
   report.soup_covered = covered_share(trial.inside, marks.touched, watch);
+  if (!report.wants_band_voxels)
+    report.largest_closure = largest_closure_voxels(trial.inside, field.distance, marks, watch) * frame.voxel_size;
   report.band = report.band_voxels * frame.voxel_size;
   report.k = field.d_max > 0 ? std::max(0.0, 1 - report.band / field.d_max) : 0;
   report.volume = static_cast<double>(report.inside_voxels) * std::pow(frame.voxel_size, 3);

@@ -56,21 +56,34 @@ class ShapeTally {
     const EdgeLengths edges = measure_edges(p);
     quality_.max_edge_ratio = std::max(quality_.max_edge_ratio, edges.longest / edges.shortest);
     add_mean_ratio(volume > 0 ? 12 * std::pow(3 * volume, 2.0 / 3) / edges.sum_of_squares : 0);
-    for (const double cosine : dihedral_cosines(p)) add_angle(std::acos(cosine));
+    if (volume > 0) sum_volume_ += volume, sum_square_ += volume * volume, ++positive_;
+    double smallest = std::numbers::pi;
+    for (const double cosine : dihedral_cosines(p)) smallest = std::min(smallest, add_angle(std::acos(cosine)));
+    smallest_angles_.push_back(smallest);
   }
 
   void finish() {
     if (min_volume_ <= max_volume_) quality_.min_tet_volume = min_volume_, quality_.max_tet_volume = max_volume_;
     if (min_angle_ <= max_angle_) quality_.min_dihedral = min_angle_, quality_.max_dihedral = max_angle_;
+    if (positive_ > 0) {
+      const double mean = sum_volume_ / positive_;
+      quality_.volume_variation = std::sqrt(std::max(0.0, sum_square_ / positive_ - mean * mean)) / mean;
+    }
+    if (!smallest_angles_.empty()) {
+      const auto at = smallest_angles_.begin() + static_cast<std::ptrdiff_t>(smallest_angles_.size() / 100);
+      std::nth_element(smallest_angles_.begin(), at, smallest_angles_.end());
+      quality_.min_dihedral_p1 = *at;
+    }
     if (tets_ > 0) quality_.mean_ratio_min = min_ratio_, quality_.mean_ratio_mean = sum_ratio_ / tets_;
   }
 
  private:
-  void add_angle(double angle) {
-    if (std::isnan(angle)) return;
+  double add_angle(double angle) {
+    if (std::isnan(angle)) return std::numbers::pi;
     min_angle_ = std::min(min_angle_, angle);
     max_angle_ = std::max(max_angle_, angle);
     ++quality_.dihedral_histogram[dihedral_bin(angle)];
+    return angle;
   }
   void add_mean_ratio(double ratio) {
     min_ratio_ = std::min(min_ratio_, ratio);
@@ -84,6 +97,8 @@ class ShapeTally {
   double min_angle_ = kInfinity, max_angle_ = -kInfinity;
   double min_ratio_ = kInfinity, sum_ratio_ = 0;
   double tets_ = 0;
+  double sum_volume_ = 0, sum_square_ = 0, positive_ = 0;
+  std::vector<double> smallest_angles_;
 };
 
 std::size_t count_unused(const TetMesh& mesh) {

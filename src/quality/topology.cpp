@@ -1,36 +1,16 @@
 #include "quality/topology.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 #include "base/groups.h"
 #include "base/tet_faces.h"
+#include "base/unions.h"
+#include "quality/surface.h"
 
 namespace tetsoup {
 
 namespace {
-
-/// Disjoint sets; the smallest member represents its set.
-class Unions {
- public:
-  explicit Unions(std::size_t count) {
-    parent_.resize(count);
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// One side of a boundary triangle, with the triangle's corners at its two ends (corner = 3 * triangle + 0..2).
 struct Side {
@@ -128,6 +108,7 @@ void measure_topology(const TetMesh& mesh, Quality& quality) {
   quality.boundary_manifold =
       quality.boundary_closed && quality.non_manifold_edges == 0 && quality.non_manifold_vertices == 0;
   quality.boundary_only_tets = count_boundary_only(mesh, triangles);
+  measure_surface(mesh, faces, triangles, quality);
 }
 
 }  // namespace tetsoup

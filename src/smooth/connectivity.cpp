@@ -43,6 +43,15 @@ VertexLists edges_of_triangles(std::size_t vertex_count, const std::vector<Trian
   return {vertex_count, std::move(entries)};
 }
 
+VertexLists triangles_around(std::size_t vertex_count, const std::vector<Triangle>& triangles) {
+  std::vector<VertexLists::Entry> entries;
+  entries.reserve(3 * triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (const std::uint32_t v : triangles[t]) entries.push_back({v, t});
+  }
+  return {vertex_count, entries};
+}
+
 /// Numbers the parts by their first tet.
 void find_parts(const TetMesh& mesh, Connectivity& links) {
   std::vector<std::uint32_t> part(mesh.vertices.size(), kNoPart);
@@ -105,6 +114,7 @@ Connectivity connect(const TetMesh& mesh) {
   links.neighbours = edges_of_tets(mesh);
   links.triangles = lone_faces(mesh, sorted_faces(mesh));
   links.boundary_neighbours = edges_of_triangles(mesh.vertices.size(), links.triangles);
+  links.boundary_triangles = triangles_around(mesh.vertices.size(), links.triangles);
   split_vertices(mesh.vertices.size(), links);
   find_parts(mesh, links);
   return links;

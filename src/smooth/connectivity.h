@@ -37,6 +37,7 @@ struct Connectivity {
   std::vector<std::uint32_t> boundary;        ///< Vertices of the boundary, ascending.
   std::vector<std::uint32_t> interior;        ///< Vertices inside, ascending.
   VertexLists boundary_neighbours;            ///< Along the edges of the boundary triangles.
+  VertexLists boundary_triangles;             ///< Around each vertex.
   std::vector<std::uint32_t> part_of_tet;     ///< Tets joined through vertices form one part.
   std::vector<std::uint32_t> part_of_vertex;  ///< 0 for a vertex without tets.
   std::size_t part_count = 0;

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/tet_geometry.h"
 #include "smooth/connectivity.h"
+#include "smooth/enclosed.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
@@ -14,23 +16,31 @@ namespace tetsoup {
 inline constexpr std::size_t kVerticesPerStep =
     256;  ///< Moves between two looks at the progress callback: well under 1 ms.
 
-/// Every tet keeps, in the float positions that are stored, a share of its first volume and dihedral angles above the
-/// floor, or above its first smallest one where that was lower. Refers to the start and the links: both must outlive
-/// it.
+/// What every tet must keep.
+struct ShapeLimits {
+  double min_dihedral = 0;    ///< Radians, below pi / 3.
+  double max_dihedral = 0;    ///< Radians, pi / 2 or more.
+  double max_edge_ratio = 0;  ///< Longest over shortest edge, 1 or more.
+};
+
+/// Every tet keeps, in the float positions that are stored, a share of its first volume and the limits, or what it had
+/// first where that was worse; and what it encloses. Refers to the start and the links: both must outlive it.
 class GuardedMesh {
  public:
-  GuardedMesh(const TetMesh& start, const Connectivity& links, double min_dihedral);
+  GuardedMesh(const TetMesh& start, const Connectivity& links, const ShapeLimits& limits,
+              std::span<const Vec3> enclosed = {});
 
   /// Moves a vertex all the way to the target, or a half, a quarter, ... of it, or not at all.
   /// @return  Whether it went all the way.
   bool move(std::uint32_t vertex, const Vec3d& target);
 
-  /// Puts a vertex anywhere; whoever does it asks is_sound() about the tets afterwards.
+  /// Puts a vertex anywhere; whoever does it asks is_sound() about the tets afterwards. Enclosed points are forgotten.
   void place(std::uint32_t vertex, const Vec3& position) { mesh_.vertices[vertex] = position; }
   bool is_sound(std::size_t tet) const;
 
   Vec3d at(std::uint32_t vertex) const { return to_double(mesh_.vertices[vertex]); }
   Vec3d start_of(std::uint32_t vertex) const { return to_double(start_.vertices[vertex]); }
+  bool encloses_points() const { return !enclosed_.empty(); }
   double volume(std::size_t tet) const { return signed_volume(corners(mesh_, tet)); }
   double start_volume(std::size_t tet) const { return signed_volume(corners(start_, tet)); }
   double min_dihedral() const;
@@ -42,14 +52,18 @@ class GuardedMesh {
   bool surroundings_are_sound(std::uint32_t vertex) const;
 
   struct Limit {
-    double volume;  ///< A tet's must stay above.
-    double cosine;  ///< None of its dihedral angles' may rise above.
+    double volume;                ///< A tet's must stay above.
+    double square_cosine_of_min;  ///< None of its acute angles' may rise above.
+    double square_cosine_of_max;  ///< None of its obtuse angles' may rise above.
+    double square_edge_ratio;
   };
 
   const TetMesh& start_;
   const Connectivity& links_;
   TetMesh mesh_;
   std::vector<Limit> limits_;
+  double to_unit_ = 1;  ///< A power of two that makes edges about 1 long, so that no product overflows.
+  EnclosedPoints enclosed_;
   std::size_t shortened_moves_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "base/tet_faces.h"
 #include "smooth/connectivity.h"
 #include "smooth/fairing.h"
+#include "smooth/fit.h"
 #include "smooth/guard.h"
 #include "smooth/volume.h"
 
@@ -24,6 +25,9 @@ void check(const SmoothOptions& options) {
   require(options.strength > 0 && std::isfinite(options.strength), "strength", options.strength, "above 0 and finite");
   require(options.min_dihedral >= 0 && options.min_dihedral < std::numbers::pi / 3, "min_dihedral",
           options.min_dihedral, "at least 0 and below pi / 3 radians");
+  require(options.max_dihedral >= std::numbers::pi / 2 && options.max_dihedral <= std::numbers::pi, "max_dihedral",
+          options.max_dihedral, "pi / 2 to pi radians");
+  require(options.max_edge_ratio >= 1, "max_edge_ratio", options.max_edge_ratio, "1 or more");
 }
 
 void check(const TetMesh& mesh) {
@@ -67,6 +71,23 @@ void relax_interior(const Connectivity& links, GuardedMesh& mesh, StageWatch& wa
   }
 }
 
+/// Fairing passes, and the volume put right.
+void fair(const Connectivity& links, const SmoothOptions& options, GuardedMesh& mesh, StageWatch& watch) {
+  const BoundaryFlow flow(links);
+  for (int pass = 0; pass < options.passes; ++pass) {
+    watch.enter_part(kShareOfPasses * pass / options.passes, kShareOfPasses * (pass + 1) / options.passes);
+    std::vector<Vec3d> targets = fair_boundary(links, mesh, flow, options.strength);
+    restore_swept_volume(links, mesh, flow, targets);
+    move_boundary(links, targets, mesh, watch);
+    relax_interior(links, mesh, watch);
+  }
+  watch.enter_part(kShareOfPasses, 1);
+  if (!mesh.encloses_points()) return restore_total_volume(links, mesh, watch);
+  double volume = 0;
+  for (std::size_t t = 0; t < mesh.mesh().tets.size(); ++t) volume += mesh.start_volume(t);
+  approach_volume(links, volume, mesh, watch);
+}
+
 SmoothReport report_on(const Connectivity& links, const GuardedMesh& mesh, int passes) {
   SmoothReport report;
   report.passes = passes;
@@ -77,6 +98,7 @@ SmoothReport report_on(const Connectivity& links, const GuardedMesh& mesh, int p
     report.volume_before += mesh.start_volume(t);
     report.volume_after += mesh.volume(t);
   }
+  report.volume_wanted = report.volume_before;
   for (const std::uint32_t v : links.boundary) {
     double before = 0, after = 0;
     for (const std::uint32_t tet : links.tets[v]) before += mesh.start_volume(tet), after += mesh.volume(tet);
@@ -88,22 +110,27 @@ SmoothReport report_on(const Connectivity& links, const GuardedMesh& mesh, int p
 }  // namespace
 
 SmoothResult smooth_tets(const TetMesh& mesh, const SmoothOptions& options, const Progress& progress) {
+  return smooth_tets(mesh, SmoothTarget{}, options, progress);
+}
+
+SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const SmoothOptions& options,
+                         const Progress& progress) {
   check(options);
   StageWatch watch(progress, "smooth");
   check(mesh);
   const Connectivity links = connect(mesh);
-  const BoundaryFlow flow(links);
-  GuardedMesh moving(mesh, links, options.min_dihedral);
-  for (int pass = 0; pass < options.passes; ++pass) {
-    watch.enter_part(kShareOfPasses * pass / options.passes, kShareOfPasses * (pass + 1) / options.passes);
-    std::vector<Vec3d> targets = fair_boundary(links, moving, flow, options.strength);
-    restore_swept_volume(links, moving, flow, targets);
-    move_boundary(links, targets, moving, watch);
-    relax_interior(links, moving, watch);
+  GuardedMesh moving(mesh, links, {options.min_dihedral, options.max_dihedral, options.max_edge_ratio},
+                     target.enclosed);
+  const bool snaps = options.snap == Snap::Surface && target.inside != nullptr && options.passes > 0;
+  if (!snaps) {
+    fair(links, options, moving, watch);
+    return {moving.mesh(), report_on(links, moving, options.passes)};
   }
-  watch.enter_part(kShareOfPasses, 1);
-  restore_total_volume(links, moving, watch);
-  return {moving.mesh(), report_on(links, moving, options.passes)};
+  const double wanted = fit_to_surface(links, *target.inside, options.passes, moving, watch);
+  SmoothReport report = report_on(links, moving, options.passes);
+  report.snapped = true;
+  report.volume_wanted = wanted;
+  return {moving.mesh(), std::move(report)};
 }
 
 }  // namespace tetsoup

@@ -19,19 +19,6 @@ constexpr double kKeptExactly = 1e-7;   // Of a part's volume: about what float 
 constexpr double kKept = 5e-5;          // Of a part's volume, half of what the header promises for the whole.
 constexpr double kSmallestBlend = 0.1;  // Of the way from the start: below, a part stays where it began.
 
-/// Gradient of the volume by each boundary vertex: a third of the area vectors around it, outwards.
-std::vector<Vec3d> volume_gradients(const Connectivity& links, const GuardedMesh& mesh) {
-  std::vector<Vec3d> at_vertex(mesh.mesh().vertices.size());
-  for (const auto& [a, b, c] : links.triangles) {
-    const Vec3d share = cross(mesh.at(b) - mesh.at(a), mesh.at(c) - mesh.at(a)) * (1.0 / 6);
-    for (const std::uint32_t v : {a, b, c}) at_vertex[v] += share;
-  }
-  std::vector<Vec3d> gradients;
-  gradients.reserve(links.boundary.size());
-  for (const std::uint32_t v : links.boundary) gradients.push_back(at_vertex[v]);
-  return gradients;
-}
-
 /// A way along the normal; longer ones than kMaxPush are cut, since they extrapolate from a bent surface.
 Vec3d along_normal(const Vec3d& gradient, double way) {
   const double area = length(gradient);
@@ -40,17 +27,21 @@ Vec3d along_normal(const Vec3d& gradient, double way) {
   return gradient * (std::clamp(way, -limit, limit) / area);
 }
 
-/// The last step for all parts: equal offsets along the normals, until nothing is missing or nothing can move.
+/// The last step: equal offsets along the normals of each part, until nothing is missing or nothing can move.
 class VolumeKeeper {
  public:
-  VolumeKeeper(const Connectivity& links, GuardedMesh& mesh) : links_(links), mesh_(mesh), wanted_(links.part_count) {
-    for (std::size_t t = 0; t < links.part_of_tet.size(); ++t) wanted_[links.part_of_tet[t]] += mesh.start_volume(t);
-  }
+  VolumeKeeper(const Connectivity& links, const std::vector<std::uint32_t>& part_of_tet,
+               const std::vector<std::uint32_t>& part_of_vertex, std::vector<double> wanted, GuardedMesh& mesh)
+      : links_(links),
+        part_of_tet_(part_of_tet),
+        part_of_vertex_(part_of_vertex),
+        wanted_(std::move(wanted)),
+        mesh_(mesh) {}
 
   /// What each part lacks, 0 where it is within `tolerance` of its volume.
   std::vector<double> missing(double tolerance) const {
     std::vector<double> lack = wanted_;
-    for (std::size_t t = 0; t < links_.part_of_tet.size(); ++t) lack[links_.part_of_tet[t]] -= mesh_.volume(t);
+    for (std::size_t t = 0; t < part_of_tet_.size(); ++t) lack[part_of_tet_[t]] -= mesh_.volume(t);
     for (std::size_t p = 0; p < lack.size(); ++p) {
       if (std::abs(lack[p]) <= tolerance * wanted_[p]) lack[p] = 0;
     }
@@ -69,7 +60,7 @@ class VolumeKeeper {
  private:
   void offset_once(const std::vector<double>& lack, std::vector<char>& blocked, StageWatch& watch) {
     const std::vector<Vec3d> gradients = volume_gradients(links_, mesh_);
-    std::vector<double> area(links_.part_count, 0.0);
+    std::vector<double> area(lack.size(), 0.0);
     for (std::size_t i = 0; i < links_.boundary.size(); ++i) {
       if (!blocked[i]) area[part_of(i)] += length(gradients[i]);
     }
@@ -81,11 +72,12 @@ class VolumeKeeper {
       if (!mesh_.move(v, mesh_.at(v) + along_normal(gradients[i], way))) blocked[i] = 1;
     }
   }
-  std::uint32_t part_of(std::size_t i) const { return links_.part_of_vertex[links_.boundary[i]]; }
+  std::uint32_t part_of(std::size_t i) const { return part_of_vertex_[links_.boundary[i]]; }
 
   const Connectivity& links_;
-  GuardedMesh& mesh_;
+  const std::vector<std::uint32_t>&part_of_tet_, &part_of_vertex_;
   std::vector<double> wanted_;
+  GuardedMesh& mesh_;
 };
 
 /// Puts the vertices of the parts with `share[part] < 1` so far along the way from their start to `smoothed`.
@@ -109,6 +101,18 @@ std::vector<char> unsound_parts(const Connectivity& links, const GuardedMesh& me
 
 }  // namespace
 
+std::vector<Vec3d> volume_gradients(const Connectivity& links, const GuardedMesh& mesh) {
+  std::vector<Vec3d> at_vertex(mesh.mesh().vertices.size());
+  for (const auto& [a, b, c] : links.triangles) {
+    const Vec3d share = cross(mesh.at(b) - mesh.at(a), mesh.at(c) - mesh.at(a)) * (1.0 / 6);
+    for (const std::uint32_t v : {a, b, c}) at_vertex[v] += share;
+  }
+  std::vector<Vec3d> gradients;
+  gradients.reserve(links.boundary.size());
+  for (const std::uint32_t v : links.boundary) gradients.push_back(at_vertex[v]);
+  return gradients;
+}
+
 void restore_swept_volume(const Connectivity& links, const GuardedMesh& mesh, const BoundaryFlow& flow,
                           std::vector<Vec3d>& targets) {
   const std::vector<Vec3d> gradients = volume_gradients(links, mesh);
@@ -124,7 +128,9 @@ void restore_swept_volume(const Connectivity& links, const GuardedMesh& mesh, co
 }
 
 void restore_total_volume(const Connectivity& links, GuardedMesh& mesh, StageWatch& watch) {
-  VolumeKeeper keeper(links, mesh);
+  std::vector<double> wanted(links.part_count);
+  for (std::size_t t = 0; t < links.part_of_tet.size(); ++t) wanted[links.part_of_tet[t]] += mesh.start_volume(t);
+  VolumeKeeper keeper(links, links.part_of_tet, links.part_of_vertex, std::move(wanted), mesh);
   const TetMesh smoothed = mesh.mesh();
   std::vector<double> share(links.part_count, 1.0);
   for (;;) {
@@ -140,6 +146,11 @@ void restore_total_volume(const Connectivity& links, GuardedMesh& mesh, StageWat
     if (!any_failed) return;
     blend_parts(links, share, smoothed, mesh);
   }
+}
+
+void approach_volume(const Connectivity& links, double wanted, GuardedMesh& mesh, StageWatch& watch) {
+  const std::vector<std::uint32_t> of_tet(links.part_of_tet.size(), 0), of_vertex(links.part_of_vertex.size(), 0);
+  VolumeKeeper(links, of_tet, of_vertex, {wanted}, mesh).offset_until_kept(watch);
 }
 
 }  // namespace tetsoup

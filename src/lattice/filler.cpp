@@ -1,0 +1,182 @@
+#include "lattice/filler.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/bits.h"
+#include "base/mesh_voxels.h"
+#include "base/require.h"
+#include "lattice/clean_topology.h"
+#include "lattice/cover.h"
+#include "lattice/even_out.h"
+#include "lattice/gather_candidates.h"
+#include "lattice/passed_voxels.h"
+#include "lattice/separate.h"
+#include "lattice/thin_parts.h"
+
+namespace tetsoup {
+namespace {
+
+constexpr int kMaxCells = 4096;  ///< Along the longest axis.
+constexpr double kMaxTets = 2147483648.0;
+constexpr double kLeastCovered = 0.25;  ///< A pseudo volume that covers less of the soup is nothing but stray voxels.
+constexpr double kLeastCore =
+    0.02;  ///< Share of inside voxels within inside voxels; below, the volume is a mere sheet.
+
+/// Whether density left a body: at least every second tet has another of its own cell beside it. What it leaves of a
+/// sheet thinner than a cell is crumbs.
+bool holds_together(const FilledCells& filled, const LatticeTable& table) {
+  std::size_t beside = 0;
+  for (const FilledCell& c : filled.cells)
+    for (std::size_t t = 0; t < table.tet_count; ++t)
+      beside += (c.kept >> t & 1U) != 0 && (c.kept & table.beside[t]) != 0;
+  return beside > 0 && 2 * beside >= filled.kept_tets;
+}
+
+struct CoreCounts {
+  std::size_t all = 0, core = 0;
+  CoreCounts& operator+=(const CoreCounts& other) {
+    all += other.all;
+    core += other.core;
+    return *this;
+  }
+};
+
+/// Inside voxels of a layer, and those of them whose six neighbours are inside too.
+CoreCounts count_core(const BitGrid& inside, int z) {
+  const std::size_t words = inside.words_per_row;
+  const BitRows rows(inside);
+  CoreCounts counts;
+  for (int y = 0; y < inside.frame.size[1]; ++y) {
+    const std::uint64_t* here = rows.at(y, z);
+    const std::array beside{rows.at(y - 1, z), rows.at(y + 1, z), rows.at(y, z - 1), rows.at(y, z + 1)};
+    for (std::size_t w = 0; w < words; ++w) {
+      if (here[w] == 0) continue;
+      std::uint64_t bits = here[w] & shifted_up(here, w) & shifted_down(here, w, words);
+      for (const std::uint64_t* other : beside) bits &= other ? other[w] : 0;
+      counts.all += bit_count(here[w]);
+      counts.core += bit_count(bits);
+    }
+  }
+  return counts;
+}
+
+double core_share(const BitGrid& inside, StageWatch& watch) {
+  const auto counts = parallel_sum<CoreCounts>(inside.frame.size[2], 1, watch, [&](std::int64_t z, std::int64_t) {
+    return count_core(inside, static_cast<int>(z));
+  });
+  return counts.all == 0 ? 0 : static_cast<double>(counts.core) / static_cast<double>(counts.all);
+}
+
+}  // namespace
+
+std::size_t Fill::kept_tets() const {
+  return static_cast<std::size_t>(
+      std::count_if(candidates.kept.begin(), candidates.kept.end(), [](std::uint8_t kept) { return kept != 0; }));
+}
+
+std::size_t Fill::kept_vertices() const {
+  std::vector<std::uint8_t> used(candidates.mesh.vertices.size());
+  for (std::size_t t = 0; t < candidates.kept.size(); ++t)
+    if (candidates.kept[t] != 0)
+      for (const std::uint32_t v : candidates.mesh.tets[t]) used[v] = 1;
+  return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+}
+
+Filler::Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options, StageWatch& watch)
+    : volume_(volume),
+      soup_(soup),
+      options_(options),
+      watch_(watch),
+      grid_(volume.inside.frame),
+      table_(lattice_table(options.kind)),
+      inside_(volume.inside, watch) {
+  has_volume_ = volume.report.inside_voxels > 0 && volume.report.soup_covered >= kLeastCovered &&
+                core_share(volume.inside, watch) >= kLeastCore;
+  const bool covers_soup =
+      options.cover == Cover::Enclose || (options.thin == Thin::Keep && options.cover != Cover::Inside);
+  if (has_volume_ && covers_soup) {
+    passed_ = passed_voxels(volume.inside, soup, watch);
+    passed_blocks_.emplace(*passed_, watch);
+  }
+}
+
+Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
+  check_cell(pose.cell_size);
+  const double overhang = static_cast<double>(table_.reach) / kStepsPerCell - 1;
+  Fill fill{pose, make_lattice_frame(grid_, pose, overhang), {}, false, false, 0, 0, {}};
+  ++fills_;
+  FilledCells filled = find_densities(inside_, fill.frame, table_, options_.rho_min, watch_);
+  fill.crumbs = !has_volume_ || !holds_together(filled, table_);
+  if (fill.crumbs && (!has_volume_ || crumbs == Crumbs::BySoup)) {
+    keep_crossed_tets(soup_, fill.frame, table_, filled, watch_);
+    fill.by_soup = true;
+    fill.crumbs = false;
+  }
+  fill.dense_tets = filled.kept_tets;
+  if (!fill.by_soup && !fill.crumbs && passed_)
+    add_passed(find_densities(*passed_blocks_, fill.frame, table_, options_.rho_min, watch_), table_.tet_count, filled);
+  fill.sampled_tets = filled.sampled_tets;
+  fill.candidates = gather_candidates(filled, fill.frame, table_);
+  if (!fill.crumbs) mend(fill);
+  return fill;
+}
+
+/// Mends what density leaves, step by step; each changes which candidates are kept, or the candidates, and notes in
+/// `fill.mended` what it did.
+void Filler::mend(Fill& fill) {
+  Candidates& candidates = fill.candidates;
+  LatticeReport& report = fill.mended;
+  if (options_.cover == Cover::Inside && !fill.by_soup) keep_inside_tets(candidates);
+  if (options_.stairs == Stairs::Even && options_.cover != Cover::Inside && !fill.by_soup)
+    report.evened_tets = even_out(candidates, options_.rho_min);
+  if (options_.thin == Thin::Keep && !candidates.passed.empty())
+    report.thin_tets = keep_thin_parts(candidates, volume_.inside, *passed_, watch_);
+  if (options_.cover == Cover::Enclose)
+    report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
+  if (options_.separate == Separate::Apart && !fill.by_soup) {
+    const Separated apart = separate(candidates, volume_.inside, options_.rho_min, watch_);
+    report.doubled_tets = apart.tets;
+    report.parted_vertices = apart.vertices;
+  }
+  TopologyOptions topology = options_.topology;
+  if (options_.cover == Cover::Enclose) topology.min_part = 0;  // or what was enclosed would be dropped
+  report.topology = clean_topology(candidates, topology, watch_);
+  if (options_.cover == Cover::Enclose) report.enclosing_tets += enclose_apart(candidates, soup_.soup.vertices, watch_);
+}
+
+Shares Filler::shares(const TetMesh& mesh) const {
+  const MeshVoxels voxels = count_mesh_voxels(mesh, volume_.inside, watch_);
+  const auto volume = [&](std::size_t count) { return static_cast<double>(count) * std::pow(grid_.voxel_size, 3); };
+  return {volume(voxels.in_both), volume(voxels.in_mesh - voxels.in_both),
+          volume(volume_.report.inside_voxels - voxels.in_both)};
+}
+
+double Filler::longest_edge() const {
+  const Box3 box = grid_box(grid_);
+  const Vec3d e = box.hi - box.lo;
+  return std::max({e.x, e.y, e.z});
+}
+
+double Filler::smallest_cell() const {
+  const Box3 box = grid_box(grid_);
+  const Vec3d e = box.hi - box.lo;
+  const double tets = static_cast<double>(table_.tet_count);
+  // A little more than the cube root alone, since a cell more is counted along every axis.
+  const double most = std::cbrt(e.x * e.y * e.z * tets / kMaxTets) * 1.01 + longest_edge() / kMaxCells;
+  return std::max(finest_cell_size(grid_), most);
+}
+
+void Filler::check_cell(double cell_size) const {
+  require(cell_size >= finest_cell_size(grid_), "cell_size", cell_size,
+          "at least " + std::to_string(finest_cell_size(grid_)) +
+              ", or single precision cannot hold the vertices so far from the origin");
+  const Box3 box = grid_box(grid_);
+  const Vec3d e = (box.hi - box.lo) * (1 / cell_size);
+  const double tets = (e.x + 1) * (e.y + 1) * (e.z + 1) * static_cast<double>(table_.tet_count);
+  require(tets < kMaxTets && longest_edge() / cell_size <= kMaxCells, "cell_size", cell_size,
+          "large enough for at most 2^31 tets and 4096 cells along the longest axis");
+}
+
+}  // namespace tetsoup

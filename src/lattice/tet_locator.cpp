@@ -1,0 +1,76 @@
+#include "lattice/tet_locator.h"
+
+#include "base/whole.h"
+
+namespace tetsoup {
+namespace {
+
+/// Edges of a bucket: single-precision vertices put a point on a face up to this far outside.
+constexpr double kOnFace = 1e-5;
+constexpr double kBucketsPerTet = 2;
+
+TetCorners corners_of(const TetMesh& mesh, const Tet& tet) {
+  TetCorners p;
+  for (std::size_t i = 0; i < 4; ++i) p[i] = to_double(mesh.vertices[tet[i]]);
+  return p;
+}
+
+}  // namespace
+
+TetLocator::TetLocator(const TetMesh& mesh) {
+  if (mesh.tets.empty()) return;
+  Vec3d lo = corners_of(mesh, mesh.tets.front())[0], hi = lo;
+  double volume = 0;
+  for (const Tet& tet : mesh.tets) {
+    const TetCorners p = corners_of(mesh, tet);
+    volume = std::max(volume, signed_volume(p));
+    for (const Vec3d& q : p) {
+      lo = min(lo, q);
+      hi = max(hi, q);
+    }
+  }
+  const Vec3d size = hi - lo;
+  const double most = kBucketsPerTet * static_cast<double>(mesh.tets.size()) + 1;
+  edge_ = std::max(std::cbrt(6 * volume), std::cbrt(size.x * size.y * size.z / most));
+  origin_ = lo;
+  const auto last = bucket_of(hi);
+  for (std::size_t i = 0; i < 3; ++i) count_[i] = last[i] + 1;
+
+  planes_.resize(mesh.tets.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const TetCorners p = corners_of(mesh, mesh.tets[t]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& face = kTetFaces[i];
+      const Vec3d a = p[static_cast<std::size_t>(face[0])];
+      Vec3d n = cross(p[static_cast<std::size_t>(face[2])] - a, p[static_cast<std::size_t>(face[1])] - a);
+      n = n * (1 / length(n));
+      planes_[t][i] = {n, -dot(n, a) + kOnFace * edge_};
+    }
+  }
+  tets_ = Groups<std::uint32_t>(number_of({count_[0] - 1, count_[1] - 1, count_[2] - 1}) + 1, [&](const auto& put) {
+    for (std::uint32_t t = 0; t < mesh.tets.size(); ++t) {
+      const TetCorners p = corners_of(mesh, mesh.tets[t]);
+      const auto first = bucket_of(min(min(p[0], p[1]), min(p[2], p[3])));
+      const auto end = bucket_of(max(max(p[0], p[1]), max(p[2], p[3])));
+      for (int z = first[2]; z <= end[2]; ++z)
+        for (int y = first[1]; y <= end[1]; ++y)
+          for (int x = first[0]; x <= end[0]; ++x) put(number_of({x, y, z}), t);
+    }
+  });
+}
+
+std::array<int, 3> TetLocator::bucket_of(const Vec3d& point) const {
+  // Far points need not be told apart, but must fit an int.
+  constexpr double kFar = 1e9;
+  const Vec3d p = (point - origin_) * (1 / edge_);
+  const auto whole = [&](double x) { return floor_to_int(std::clamp(x, -kFar, kFar)); };
+  return {whole(p.x), whole(p.y), whole(p.z)};
+}
+
+bool TetLocator::holds(std::uint32_t tet, const Vec3d& point) const {
+  for (const Plane& plane : planes_[tet])
+    if (dot(plane.normal, point) + plane.offset < 0) return false;
+  return true;
+}
+
+}  // namespace tetsoup

@@ -1,0 +1,50 @@
+// Finds the tets that hold a point.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/groups.h"
+#include "base/tet_geometry.h"
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+class TetLocator {
+ public:
+  /// O(tets).
+  explicit TetLocator(const TetMesh& mesh);
+
+  /// visit(tet) for every tet that holds the point or has it on its faces, in ascending order.
+  template <class Visit>
+  void visit_holders(const Vec3d& point, const Visit& visit) const {
+    const auto bucket = bucket_of(point);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (bucket[i] < 0 || bucket[i] >= count_[i]) return;
+    for (const std::uint32_t t : tets_[number_of(bucket)])
+      if (holds(t, point)) visit(t);
+  }
+
+ private:
+  /// Where dot(normal, p) + offset >= 0, in edges of a bucket.
+  struct Plane {
+    Vec3d normal;
+    double offset = 0;
+  };
+  bool holds(std::uint32_t tet, const Vec3d& point) const;
+  std::array<int, 3> bucket_of(const Vec3d& point) const;
+  std::size_t number_of(const std::array<int, 3>& bucket) const {
+    return static_cast<std::size_t>(bucket[0]) +
+           static_cast<std::size_t>(count_[0]) *
+               (static_cast<std::size_t>(bucket[1]) +
+                static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(bucket[2]));
+  }
+
+  Vec3d origin_;
+  double edge_ = 1;
+  std::array<int, 3> count_{};
+  std::vector<std::array<Plane, 4>> planes_;
+  Groups<std::uint32_t> tets_;  ///< That reach into each bucket.
+};
+
+}  // namespace tetsoup

@@ -1,0 +1,44 @@
+// Where the boundary's triangles should come to lie: at the surface of the pseudo volume.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/parallel.h"
+#include "smooth/connectivity.h"
+#include "smooth/guard.h"
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+/// Points of a boundary triangle at which it is held to the surface, as weights of its corners: fitted are the
+/// triangles and not the vertices, whose chords would lose volume.
+inline constexpr std::size_t kSamples = 6;
+inline constexpr std::array<std::array<double, 3>, kSamples> kSampleWeights{{{7.0 / 9, 1.0 / 9, 1.0 / 9},
+                                                                             {1.0 / 9, 7.0 / 9, 1.0 / 9},
+                                                                             {1.0 / 9, 1.0 / 9, 7.0 / 9},
+                                                                             {1.0 / 9, 4.0 / 9, 4.0 / 9},
+                                                                             {4.0 / 9, 1.0 / 9, 4.0 / 9},
+                                                                             {4.0 / 9, 4.0 / 9, 1.0 / 9}}};
+
+/// A sample should come to lie where dot(normal, x) = offset.
+struct Aim {
+  Vec3d normal;
+  double offset = 0;
+  bool in_reach = false;
+};
+
+struct TriangleAim {
+  std::array<Aim, kSamples> samples;
+  Vec3d normal;  ///< Mean of those of its corners: how it would lie on a smooth boundary.
+  double area = 0;
+};
+
+/// Looks from every sample along the normal for the place where the voxels change: outwards from an inside voxel,
+/// inwards from an outside one, as far as `reach`.
+///
+/// @param level  How far outside of there the boundary should lie.
+std::vector<TriangleAim> aim_at_surface(const Connectivity& links, const GuardedMesh& mesh, const BitGrid& inside,
+                                        double reach, double level, StageWatch& watch);
+
+}  // namespace tetsoup

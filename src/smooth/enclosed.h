@@ -1,0 +1,35 @@
+// Points that must stay in the mesh while its vertices move.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/groups.h"
+#include "smooth/connectivity.h"
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+/// The points in buckets. Where a vertex of the boundary moves, only points between its triangles' old and new places
+/// can leave the mesh.
+class EnclosedPoints {
+ public:
+  EnclosedPoints(std::span<const Vec3> points, const TetMesh& mesh, const Connectivity& links);
+
+  /// Whether no point that was in the tets around the vertex, while it was at `before`, is outside of them now.
+  bool are_kept(std::uint32_t vertex, const Vec3& before, const TetMesh& mesh) const;
+  bool empty() const { return points_.items().empty(); }
+
+ private:
+  std::array<int, 3> bucket_of(const Vec3d& p) const;
+  std::size_t index_of(const std::array<int, 3>& bucket) const;
+
+  const Connectivity* links_;
+  Vec3d lo_;
+  double size_ = 1;
+  std::array<int, 3> count_{1, 1, 1};
+  Groups<Vec3> points_;
+};
+
+}  // namespace tetsoup

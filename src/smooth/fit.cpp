@@ -1,0 +1,70 @@
+#include "smooth/fit.h"
+
+#include <cmath>
+
+#include "base/bits.h"
+#include "smooth/aims.h"
+#include "smooth/relax.h"
+#include "smooth/volume.h"
+
+namespace tetsoup {
+
+namespace {
+
+constexpr double kReach = 0.5;  // Mean edges: half a tet is what density leaves or lacks.
+// Of the inside voxels' volume: a mesh that differs by more does not follow them (a sheet whose tets were kept for the
+// soup in them, thin parts of a plate), and its volume is left to the fit.
+constexpr double kNear = 0.1;
+constexpr double kShareOfPasses = 0.95;  // Of the stage's time; the rest goes into the volume.
+
+double mean_edge(const Connectivity& links, const GuardedMesh& mesh) {
+  double sum = 0, count = 0;
+  for (std::uint32_t v = 0; v < mesh.mesh().vertices.size(); ++v) {
+    for (const std::uint32_t w : links.neighbours[v]) sum += length(mesh.at(v) - mesh.at(w)), ++count;
+  }
+  return sum / count;
+}
+
+double volume_of(const GuardedMesh& mesh) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.mesh().tets.size(); ++t) sum += mesh.volume(t);
+  return sum;
+}
+
+double volume_of(const BitGrid& inside) {
+  std::size_t count = 0;
+  for (const std::uint64_t word : inside.words) {
+    if (word != 0) count += bit_count(word);
+  }
+  const double size = inside.frame.voxel_size;
+  return static_cast<double>(count) * size * size * size;
+}
+
+double boundary_area(const Connectivity& links, const GuardedMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : links.triangles) {
+    sum += length(cross(mesh.at(b) - mesh.at(a), mesh.at(c) - mesh.at(a))) / 2;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double fit_to_surface(const Connectivity& links, const BitGrid& inside, int passes, GuardedMesh& mesh,
+                      StageWatch& watch) {
+  const double edge = mean_edge(links, mesh), volume = volume_of(inside);
+  const double wanted = std::abs(volume_of(mesh) - volume) < kNear * volume ? volume : 0;
+  double level = 0;
+  for (int pass = 0; pass < passes; ++pass) {
+    watch.enter_part(kShareOfPasses * pass / passes, kShareOfPasses * (pass + 1) / passes);
+    const auto aims = aim_at_surface(links, mesh, inside, kReach * edge, level, watch);
+    relax(links, aims, edge, pass % 2 == 0 ? Sweep::Forwards : Sweep::Backwards, mesh, watch);
+    // Chords and what blunts edges take volume: the next pass aims as far outside as gives it back.
+    if (wanted > 0) level += (wanted - volume_of(mesh)) / boundary_area(links, mesh);
+  }
+  watch.enter_part(kShareOfPasses, 1);
+  if (wanted > 0) approach_volume(links, wanted, mesh, watch);
+  return wanted;
+}
+
+}  // namespace tetsoup
