@@ -168,6 +168,7 @@ const std::vector<Option>& all_options() {
       option<kLattice, &LatticeOptions::thin>("lattice", "thin"),
       option<kLattice, &LatticeOptions::cover>("lattice", "cover"),
       option<kLattice, &LatticeOptions::separate>("lattice", "separate"),
+      option<kLattice, &LatticeOptions::stairs>("lattice", "stairs"),
       option<kLattice, kTopology, &TopologyOptions::touching>("lattice", "touching"),
       option<kLattice, kTopology, &TopologyOptions::min_part>("lattice", "min_part"),
       option<kLattice, kTopology, &TopologyOptions::bubbles>("lattice", "bubbles"),
@@ -175,6 +176,9 @@ const std::vector<Option>& all_options() {
       option<kSmooth, &SmoothOptions::passes>("smooth", "passes"),
       option<kSmooth, &SmoothOptions::strength>("smooth", "strength"),
       option<kSmooth, &SmoothOptions::min_dihedral>("smooth", "min_dihedral"),
+      option<kSmooth, &SmoothOptions::max_dihedral>("smooth", "max_dihedral"),
+      option<kSmooth, &SmoothOptions::max_edge_ratio>("smooth", "max_edge_ratio"),
+      option<kSmooth, &SmoothOptions::snap>("smooth", "snap"),
       option<&MeshOptions::memory_limit>("run", "memory_limit"),
   };
   return options;

@@ -42,6 +42,7 @@ void bind_volume_report(nb::module_& m) {
       .field("candidates", &R::candidates, "What the automatic choice tried.")
       .field("wants_band_voxels", &R::wants_band_voxels,
              "Wider candidates need the distance known this far; None: chosen.")
+      .field("largest_closure", &R::largest_closure, "Diameter of the largest hole that was closed; 0: hardly any.")
       .field("cavity_voxels", &R::cavity_voxels, "Voxels added because the soup encloses them.")
       .field("soup_covered", &R::soup_covered, "Share of the soup's voxels with an inside voxel beside them.")
       .field("inside_voxels", &R::inside_voxels, "Their number.")
@@ -79,7 +80,9 @@ void bind_lattice_report(nb::module_& m) {
       .field("overlap_unfitted", &R::overlap_unfitted, "The same with the frame as given.")
       .field("thin_tets", &R::thin_tets, "Kept because a piece of the soup would have lost its cover.")
       .field("enclosing_tets", &R::enclosing_tets, "Kept to enclose the soup's vertices.")
+      .field("evened_tets", &R::evened_tets, "Dropped or added for a smoother boundary.")
       .field("doubled_tets", &R::doubled_tets, "Copies made to keep apart what is apart.")
+      .field("parted_vertices", &R::parted_vertices, "Vertices doubled between tets that stay what they were.")
       .field("excess_volume", &R::excess_volume, "Of the mesh, outside the pseudo volume.")
       .field("lacking_volume", &R::lacking_volume, "Of the pseudo volume, outside the mesh.")
       .field("topology", &R::topology, "What the clean-up did.");
@@ -90,9 +93,11 @@ void bind_smooth_report(nb::module_& m) {
   Record<R>(m, "SmoothReport", "What smoothing did.")
       .field("passes", &R::passes, "Passes made.")
       .field("boundary_vertices", &R::boundary_vertices, "Their number.")
-      .field("shortened_moves", &R::shortened_moves, "Moves the quality floor cut short, over all passes.")
+      .field("snapped", &R::snapped, "The boundary was drawn to the pseudo volume.")
+      .field("shortened_moves", &R::shortened_moves, "Moves the limits cut short, over all passes.")
       .field("volume_before", &R::volume_before, "Of the mesh.")
       .field("volume_after", &R::volume_after, "Of the mesh.")
+      .field("volume_wanted", &R::volume_wanted, "What it should be; 0: what the fit gives.")
       .field("min_dihedral", &R::min_dihedral, "Smallest dihedral angle afterwards, radians.")
       .field("boundary_volume_ratio", &R::boundary_volume_ratio,
              "For each boundary vertex, ascending: volume of the tets around it, after over before.");
@@ -109,8 +114,10 @@ void bind_quality(nb::module_& m) {
       .field("volume", &R::volume, "Sum of the signed volumes.")
       .field("min_tet_volume", &R::min_tet_volume, "Signed.")
       .field("max_tet_volume", &R::max_tet_volume, "Signed.")
+      .field("volume_variation", &R::volume_variation, "Standard deviation of the tets' volumes over their mean.")
       .field("min_dihedral", &R::min_dihedral, "Radians, over all tets with a volume.")
       .field("max_dihedral", &R::max_dihedral, "Radians, over all tets with a volume.")
+      .field("min_dihedral_p1", &R::min_dihedral_p1, "One tet in a hundred has a smallest angle below it, radians.")
       .field("dihedral_histogram", &R::dihedral_histogram, "36 bins of 5 degrees; six angles a tet.")
       .field("max_edge_ratio", &R::max_edge_ratio, "Longest over shortest edge of a tet, worst tet.")
       .field("mean_ratio_min", &R::mean_ratio_min, "12 (3 V)^(2/3) / sum of squared edges: 1 = regular, 0 = flat.")
@@ -123,7 +130,16 @@ void bind_quality(nb::module_& m) {
       .field("non_manifold_vertices", &R::non_manifold_vertices,
              "Boundary vertices whose triangles form no single fan.")
       .field("boundary_manifold", &R::boundary_manifold, "Closed, and neither of the two above.")
-      .field("boundary_only_tets", &R::boundary_only_tets, "All four vertices on the boundary.");
+      .field("boundary_only_tets", &R::boundary_only_tets, "All four vertices on the boundary.")
+      .field("boundary_only_faces", &R::boundary_only_faces, "Interior faces with three vertices on the boundary.")
+      .field("boundary_only_edges", &R::boundary_only_edges, "Interior edges with two vertices on the boundary.")
+      .field("roughness", &R::roughness, "Mean angle between neighbouring boundary triangles' normals, radians.")
+      .field("boundary_area", &R::boundary_area, "Of all boundary triangles.")
+      .field("boundary_curvature", &R::boundary_curvature, "Half the sum of length x angle over the boundary's edges.");
+  using D = BoundaryDistance;
+  Record<D>(m, "BoundaryDistance", "How far a mesh's boundary lies from a soup.")
+      .field("mean", &D::mean, "Over the boundary's area.")
+      .field("percentile95", &D::percentile95, "What 95 % of it is within.");
 }
 
 void bind_readiness(nb::module_& m) {

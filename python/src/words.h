@@ -38,6 +38,10 @@ template <>
 inline constexpr std::array kWords<Separate>{Word<Separate>{"on", Separate::Apart},
                                              Word<Separate>{"off", Separate::Together}};
 template <>
+inline constexpr std::array kWords<Stairs>{Word<Stairs>{"even", Stairs::Even}, Word<Stairs>{"leave", Stairs::Leave}};
+template <>
+inline constexpr std::array kWords<Snap>{Word<Snap>{"on", Snap::Surface}, Word<Snap>{"off", Snap::Off}};
+template <>
 inline constexpr std::array kWords<Touching>{Word<Touching>{"mend", Touching::Mend},
                                              Word<Touching>{"leave", Touching::Leave}};
 template <>

@@ -28,9 +28,22 @@ def test_stages_one_by_one_give_what_one_call_gives(torus):
     assert report.tet_count == len(lattice.tets)
     assert np.array_equal(lattice.points, pipeline.lattice.mesh.points)
     assert np.array_equal(lattice.tets, whole.tets)
-    smoothed, _ = tetsoup.smooth(lattice, passes=2)
-    assert smoothed.quality.volume == pytest.approx(lattice.quality.volume, rel=1e-3)
-    assert not np.array_equal(smoothed.points, lattice.points)
+    smoothed, _ = tetsoup.smooth(lattice, volume)
+    assert np.array_equal(smoothed.points, whole.points)
+    faired, _ = tetsoup.smooth(lattice, passes=2)
+    assert faired.quality.volume == pytest.approx(lattice.quality.volume, rel=1e-3)
+    assert not np.array_equal(faired.points, whole.points)
+
+
+def test_the_distance_between_boundary_and_soup_is_measured(torus):
+    volume = tetsoup.classify_volume(tetsoup.unsigned_distance(torus, voxels=48), band_voxels=1)
+    lattice, _ = tetsoup.fill_lattice(volume, torus, cells=12)
+    smoothed, _ = tetsoup.smooth(lattice, volume)
+    raw, fitted = (tetsoup.boundary_distance(mesh, torus) for mesh in (lattice, smoothed))
+    assert 0 < fitted.mean < fitted.percentile95 < raw.percentile95
+    assert tetsoup.boundary_distance(lattice, torus, unit=2).mean == pytest.approx(raw.mean / 2)
+    with pytest.raises(ValueError, match="enclosed has the shape"):
+        tetsoup.smooth(lattice, enclosed=[1, 2, 3])
 
 
 def test_fields_are_indexed_z_y_x_and_know_where_they_are(torus):

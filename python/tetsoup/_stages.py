@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from tetsoup import _core
 from tetsoup._mesh import Report, TetMesh
-from tetsoup._soup_input import as_soup
+from tetsoup._soup_input import as_points, as_soup
 from tetsoup.options import (
     ALL_GROUPS,
     DistanceOptions,
@@ -138,16 +138,29 @@ def fill_lattice(
 
 
 @documented(SmoothOptions)
-def smooth(mesh: TetMesh, *, progress: Progress | None = None, **options: Unpack[SmoothOptions]) -> SmoothResult:
+def smooth(
+    mesh: TetMesh,
+    volume: _core.PseudoVolume | None = None,
+    *,
+    enclosed: Any = (),
+    progress: Progress | None = None,
+    **options: Unpack[SmoothOptions],
+) -> SmoothResult:
     """Stage 5: rounds the lattice's corners off, keeps the volume, never harms a tet.
+
+    Args:
+        mesh: positive tets.
+        volume: what the boundary is drawn to; None: it is only faired.
+        enclosed: (N, 3) points; those that lie in the mesh at the start stay in it.
 
     Raises:
         tetsoup.InvalidInput: if an option is out of range or a tet is not positive.
 
     Example:
-        >>> smoothed, report = tetsoup.smooth(mesh, passes=20)
+        >>> smoothed, report = tetsoup.smooth(mesh, volume, passes=20)
     """
-    smoothed, report = _core.smooth_tets(mesh._handle, dict(options), progress)
+    points = as_points(enclosed, "enclosed")
+    smoothed, report = _core.smooth_tets(mesh._handle, volume, points, dict(options), progress)
     return SmoothResult(TetMesh._wrap(smoothed), report)
 
 

@@ -67,6 +67,7 @@ class LatticeOptions(TypedDict, total=False):
         "'enclose': the soup's vertices lie in the mesh; 'inside': it in the volume",
     ]
     separate: Annotated[Literal["on", "off"], "keep apart what shares a cell without touching"]
+    stairs: Annotated[Literal["even", "leave"], "tets that stick out, and notches, where density hardly tells"]
     touching: Annotated[Literal["mend", "leave"], "tets joined by a vertex or an edge only"]
     min_part: Annotated[float, "parts with a smaller share of the volume are dropped, [0, 1)"]
     bubbles: Annotated[Literal["fill", "keep"], "voids in the mesh without a way out"]
@@ -74,11 +75,14 @@ class LatticeOptions(TypedDict, total=False):
 
 
 class SmoothOptions(TypedDict, total=False):
-    """Rounding the lattice's corners off."""
+    """Rounding the lattice's corners off. The limits hold for every tet that did not begin beyond them."""
 
     passes: Annotated[int, "smoothing passes, 0..1000; 0 leaves the lattice as it is"]
-    strength: Annotated[float, "time step of the fairing in squared mean edge lengths, > 0"]
-    min_dihedral: Annotated[float, "dihedral angle that smoothing never goes below, radians in [0, pi/3)"]
+    strength: Annotated[float, "of the fairing, > 0; 1: a time step of one squared edge"]
+    min_dihedral: Annotated[float, "least dihedral angle, radians in [0, pi/3)"]
+    max_dihedral: Annotated[float, "largest dihedral angle, radians in [pi/2, pi]"]
+    max_edge_ratio: Annotated[float, "longest over shortest edge of a tet, >= 1"]
+    snap: Annotated[Literal["on", "off"], "draw the boundary to the surface of the volume, or only fair it"]
 
 
 class RunOptions(TypedDict, total=False):
@@ -125,7 +129,7 @@ def documented(*groups: Any) -> Callable[[Function], Function]:
                     name, inspect.Parameter.KEYWORD_ONLY, default=defaults[name], annotation=kind
                 )
                 parameters.append(keyword)
-                default = "" if meaning.endswith(")") else f" ({defaults[name]!r})"  # some say it in words
+                default = "" if defaults[name] is None else f" ({defaults[name]!r})"
                 lines.append(f"        {name}: {meaning}{default}")
         function.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
         function.__doc__ = f"{inspect.getdoc(function)}\n\nOptions:{chr(10).join(lines)}\n"
