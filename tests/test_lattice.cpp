@@ -118,9 +118,13 @@ void expect_dense_tets(const TetMesh& mesh, const BitGrid& inside, double rho_mi
   }
 }
 
-TEST(Lattice, every_kept_tet_is_dense_and_counts_are_exact) {
+TEST(Lattice, every_tet_kept_by_density_alone_is_dense_and_counts_are_exact) {
   const Stages s = classify(test::make_ball(), 24);
   LatticeOptions options = with_cells(5);
+  options.stairs = Stairs::Leave;
+  options.thin = Thin::Drop;
+  options.separate = Separate::Together;
+  options.topology = {Touching::Leave, 0, Bubbles::Keep, BoundaryOnly::Leave};
   options.rotate = {0.3, -0.2, 0.5};
   options.translate_cells = {0.31, 0.12, 0.77};
   for (const double rho_min : {0.2, 0.5, 0.9}) {

@@ -44,10 +44,7 @@ struct Extent {
 class ThinParts {
  public:
   explicit ThinParts(Candidates& candidates)
-      : c_(candidates),
-        mesh_(candidates.mesh),
-        faces_(shared_faces(mesh_)),
-        is_bare_(mesh_.tets.size(), 0) {}
+      : c_(candidates), mesh_(candidates.mesh), faces_(shared_faces(mesh_)), is_bare_(mesh_.tets.size(), 0) {}
 
   std::size_t keep(const BitGrid& inside, const BitGrid& passed, StageWatch& watch) {
     std::size_t count = 0;
