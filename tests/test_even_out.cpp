@@ -31,7 +31,9 @@ TEST(EvenOut, saves_boundary_and_leaves_what_density_is_sure_of) {
     std::size_t changed = 0;
     for (std::size_t t = 0; t < before.kept.size(); ++t) {
       changed += before.kept[t] != after.kept[t];
-      if (before.density[t] == 0 || before.density[t] == 1) EXPECT_EQ(before.kept[t], after.kept[t]);
+      if (before.density[t] == 0 || before.density[t] == 1) {
+        EXPECT_EQ(before.kept[t], after.kept[t]);
+      }
     }
     EXPECT_GT(changed, 0U);
     const Quality start = measure_quality(kept_mesh(before)), end = measure_quality(kept_mesh(after));
