@@ -123,6 +123,9 @@ TEST(Lattice, every_kept_tet_is_dense_and_counts_are_exact) {
   LatticeOptions options = with_cells(5);
   options.rotate = {0.3, -0.2, 0.5};
   options.translate_cells = {0.31, 0.12, 0.77};
+  options.stairs = Stairs::Leave;
+  options.thin = Thin::Drop;
+  options.topology.touching = Touching::Leave;
   for (const double rho_min : {0.2, 0.5, 0.9}) {
     options.rho_min = rho_min;
     expect_dense_tets(fill(s, options).mesh, s.volume.inside, rho_min);
@@ -215,7 +218,10 @@ TEST(Lattice, a_whole_turn_and_two_cells_of_translation_change_nothing) {
 
 TEST(Lattice, tets_smaller_than_a_voxel_are_sampled_not_dropped) {
   const Stages s = classify(test::make_ball(), 10);
-  const LatticeMesh fine = fill(s, with_cells(25));
+  LatticeOptions options = with_cells(25);
+  options.stairs = Stairs::Leave;
+  options.thin = Thin::Drop;
+  const LatticeMesh fine = fill(s, options);
   EXPECT_GT(fine.report.sampled_tets, 0U);
   EXPECT_NEAR(fine.report.kept_volume / s.volume.report.volume, 1, 0.05);
 }
