@@ -51,7 +51,9 @@ TEST_F(Models, every_one_gives_a_valid_mesh_with_default_options) {
     EXPECT_GE(q.min_dihedral * 180 / std::numbers::pi, 25 - 1e-6);
     EXPECT_LE(q.max_dihedral * 180 / std::numbers::pi, 155 + 1e-6);
     EXPECT_LE(q.max_edge_ratio, 3.5 + 1e-6);
-    if (result.report.volume_wanted > 0) EXPECT_NEAR(result.report.volume_after / result.report.volume_wanted, 1, 1e-3);
+    if (result.report.volume_wanted > 0) {
+      EXPECT_NEAR(result.report.volume_after / result.report.volume_wanted, 1, 1e-3);
+    }
     const Quality raw = measure_quality(pipeline.lattice().mesh);
     const CleanSoup& clean = pipeline.soup();
     EXPECT_LT(boundary_distance(result.mesh, clean.soup, 1).mean,
