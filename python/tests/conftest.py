@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+import os
 import pathlib
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MODELS = ROOT.parent / "shared" / "models"
+
+# The same examples every time; HYPOTHESIS_PROFILE=long looks for new ones.
+settings.register_profile("steady", max_examples=150, deadline=None, database=None, derandomize=True)
+settings.register_profile("long", max_examples=5000, deadline=None, database=None)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))
+
+
+def real_package(name):
+    """A package of others, or the test is skipped and says why: not installed, or without a library of the system."""
+    return pytest.importorskip(name, exc_type=ImportError)
 
 
 @pytest.fixture

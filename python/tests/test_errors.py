@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import tetsoup
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -141,7 +141,6 @@ def test_an_inverted_tet_is_measured_but_not_smoothed():
 
 
 @given(st.data())
-@settings(max_examples=150, deadline=None)
 def test_random_arrays_give_a_mesh_or_a_value_error(data):
     floats = hnp.arrays(
         data.draw(st.sampled_from([np.float32, np.float64, np.float16])),
@@ -157,7 +156,6 @@ def test_random_arrays_give_a_mesh_or_a_value_error(data):
 
 
 @given(hnp.arrays(np.float64, st.tuples(st.integers(1, 12), st.just(3), st.just(3)), elements=st.floats(-10, 10)))
-@settings(max_examples=60, deadline=None)
 def test_random_triangles_always_give_a_mesh(corners):
     check(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3), must=True)
 
@@ -183,7 +181,6 @@ def check(vertices, faces, must=False):
         },
     )
 )
-@settings(max_examples=150, deadline=None)
 def test_random_options_give_a_mesh_or_a_value_error(options):
     options.setdefault("voxels", 8)
     try:

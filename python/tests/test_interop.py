@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import tetsoup
+from conftest import real_package
 
 
 @pytest.fixture
@@ -20,7 +21,7 @@ def assert_meshes_like(source, vertices, faces):
 
 
 def test_meshio(cube, mesh, tmp_path):
-    meshio = pytest.importorskip("meshio")
+    meshio = real_package("meshio")
     mesh.to_meshio().write(tmp_path / "cube.vtu")
     again = meshio.read(tmp_path / "cube.vtu")
     assert np.array_equal(again.points, mesh.points) and np.array_equal(again.cells_dict["tetra"], mesh.tets)
@@ -33,7 +34,7 @@ def test_meshio(cube, mesh, tmp_path):
 
 
 def test_trimesh(cube, mesh):
-    trimesh = pytest.importorskip("trimesh")
+    trimesh = real_package("trimesh")
     surface = mesh.to_trimesh()
     assert surface.is_watertight and surface.is_winding_consistent
     assert surface.volume == pytest.approx(mesh.quality.volume)
@@ -44,7 +45,7 @@ def test_trimesh(cube, mesh):
 
 
 def test_pyvista(cube, mesh):
-    pyvista = pytest.importorskip("pyvista")
+    pyvista = real_package("pyvista")
     grid = mesh.to_pyvista()
     assert grid.n_cells == len(mesh.tets) and grid.volume == pytest.approx(mesh.quality.volume)
     assert (grid.compute_cell_sizes()["Volume"] > 0).all()
@@ -57,7 +58,7 @@ def test_pyvista(cube, mesh):
 
 
 def test_votes_in_two_lines_of_pyvista(cube):
-    pyvista = pytest.importorskip("pyvista")
+    pyvista = real_package("pyvista")
     volume = tetsoup.classify_volume(tetsoup.unsigned_distance(tetsoup.Soup(*cube), voxels=16))
     grid = pyvista.ImageData(dimensions=volume.shape[::-1], origin=volume.origin, spacing=[volume.voxel_size] * 3)
     grid["votes"] = volume.votes.ravel()
@@ -66,7 +67,7 @@ def test_votes_in_two_lines_of_pyvista(cube):
 
 
 def test_polyscope(mesh):
-    polyscope = pytest.importorskip("polyscope")
+    polyscope = real_package("polyscope")
     try:
         polyscope.init("openGL_mock")  # draws nothing, needs no screen
     except Exception as reason:
@@ -76,7 +77,7 @@ def test_polyscope(mesh):
 
 
 def test_usd(mesh):
-    pytest.importorskip("pxr")
+    real_package("pxr")
     from pxr import Usd, UsdGeom
 
     stage = Usd.Stage.CreateInMemory()
@@ -95,7 +96,7 @@ def as_cycles(triangles):
 
 
 def test_open3d(cube):
-    open3d = pytest.importorskip("open3d")
+    open3d = real_package("open3d")
     vertices, faces = cube
     legacy = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(vertices), open3d.utility.Vector3iVector(faces))
     assert_meshes_like(legacy, vertices, faces)

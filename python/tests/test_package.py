@@ -11,7 +11,7 @@ import typing
 
 import pytest
 import tetsoup
-from conftest import ROOT
+from conftest import ROOT, real_package
 from tetsoup import _core
 
 EXAMPLES = ROOT / "examples" / "python"
@@ -63,7 +63,7 @@ def test_everything_public_is_documented(thing):
 
 
 def test_types_hold_in_a_typed_program_and_mistakes_are_found(tmp_path):
-    pytest.importorskip("mypy")
+    real_package("mypy")
     here = pathlib.Path(__file__).parent
     config = ["--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(tmp_path)]
     run(sys.executable, "-m", "mypy", *config, "-p", "tetsoup", cwd=tmp_path)
@@ -90,3 +90,18 @@ def test_example_batch(tmp_path):
     run(sys.executable, EXAMPLES / "batch.py", tmp_path, tmp_path / "out", cwd=tmp_path)
     assert {p.name for p in (tmp_path / "out").iterdir()} == {"torus.msh", "robot.msh", "batch.csv"}
     assert len((tmp_path / "out" / "batch.csv").read_text().splitlines()) == 5
+
+
+def test_the_readmes_lines_mesh_the_bunny_and_show_it(bunny, tmp_path):
+    pyvista = real_package("pyvista")
+    readme = (ROOT / "python" / "README.md").read_text()
+    lines = re.search(r"```python\n(.*?)```", readme, re.DOTALL)
+    assert lines and lines[1].count("\n") <= 12
+    off_screen = "import pyvista; pyvista.OFF_SCREEN = True\n"
+    probe = [sys.executable, "-c", f"{off_screen}pyvista.Sphere().plot(screenshot='probe.png')"]
+    if subprocess.run(probe, cwd=tmp_path, capture_output=True, check=False).returncode != 0:
+        pytest.skip("pyvista cannot draw off screen here")
+    (tmp_path / "bunny.ply").symlink_to(bunny)
+    run(sys.executable, "-c", off_screen + lines[1].replace("cpos=", "screenshot='bunny.png', cpos="), cwd=tmp_path)
+    assert len(tetsoup.read_tets(tmp_path / "bunny.msh").tets) == pytest.approx(2000, rel=0.05)
+    assert pyvista.read(tmp_path / "bunny.png").get_array("PNGImage").std() > 10  # something is drawn

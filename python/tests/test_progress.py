@@ -9,6 +9,7 @@ import time
 
 import pytest
 import tetsoup
+from conftest import real_package
 
 HEAVY = {"voxels": 400, "band_voxels": 3, "distance_mode": "full"}
 
@@ -100,7 +101,7 @@ def test_ctrl_c_interrupts_soon_and_leaves_no_file(tmp_path):
 
 
 def test_the_tqdm_adapter_draws_a_bar_a_stage(cube, capsys):
-    pytest.importorskip("tqdm")
+    real_package("tqdm")
     tetsoup.tetrahedralize(*cube, voxels=32, progress=tetsoup.tqdm_progress())
     shown = capsys.readouterr().err
     assert "100%" in shown and "distance" in shown and "smooth" in shown
