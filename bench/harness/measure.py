@@ -147,14 +147,7 @@ def why_not(child, timeout):
 def measure_tool(tool, source, soup, voxels, tets, repetitions, timeout):
     """The whole tool, from reading the soup to the written mesh, as a process; and the seconds of its stages."""
     row = Row("tool", soup, voxels)
-    size = ["--voxels", str(voxels)]
-    child, report = run_tool(tool, source, size, timeout)
-    if report is None:
-        row.note = why_not(child, timeout)
-        return [row]
-    if report["pseudo_volume"]["volume"] > 0:
-        edge = report["lattice"]["cell_size"] * (report["tet_count"] / tets) ** (1 / 3)
-        size += ["--cell-size", f"{edge:.9g}"]
+    size = ["--voxels", str(voxels), "--tets", str(tets)]
     with tempfile.TemporaryDirectory() as folder:
         runs = [run_child([tool, "mesh", source, "-o", f"{folder}/mesh.msh", "--quiet", *size], timeout)
                 for _ in range(repetitions)]
