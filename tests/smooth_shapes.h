@@ -71,12 +71,14 @@ inline TetMesh random_lattice(unsigned seed, const std::array<int, 3>& cells, do
   });
 }
 
-/// The three promises, measured on the output bits.
+/// The promises of fairing, measured on the output bits.
 inline void expect_kept(const TetMesh& before, const SmoothResult& result,
                         double floor = SmoothOptions{}.min_dihedral) {
   const Quality start = measure_quality(before), end = measure_quality(result.mesh);
   EXPECT_EQ(end.inverted_tets, 0U);
-  EXPECT_GE(end.min_dihedral, std::min(floor, start.min_dihedral));
+  EXPECT_GE(end.min_dihedral, std::min(floor, start.min_dihedral) - 1e-9);
+  EXPECT_LE(end.max_dihedral, std::max(SmoothOptions{}.max_dihedral, start.max_dihedral) + 1e-9);
+  EXPECT_LE(end.max_edge_ratio, std::max(SmoothOptions{}.max_edge_ratio, start.max_edge_ratio) * (1 + 1e-9));
   EXPECT_NEAR(end.volume, start.volume, 1e-4 * start.volume);
   EXPECT_EQ(result.mesh.tets, before.tets);
   EXPECT_NEAR(result.report.min_dihedral, end.min_dihedral, 1e-12);

@@ -40,6 +40,16 @@ LatticeOptions with_cells(int cells) {
   return options;
 }
 
+/// Density decides, and nothing is mended afterwards.
+LatticeOptions by_density_alone(int cells) {
+  LatticeOptions options = with_cells(cells);
+  options.stairs = Stairs::Leave;
+  options.thin = Thin::Drop;
+  options.separate = Separate::Together;
+  options.topology = {Touching::Leave, 0, Bubbles::Keep, BoundaryOnly::Leave};
+  return options;
+}
+
 TEST(FiveTets, fill_the_cube_are_positive_and_own_their_centres) {
   for (const bool odd : {false, true}) {
     double sum = 0;
@@ -118,9 +128,9 @@ void expect_dense_tets(const TetMesh& mesh, const BitGrid& inside, double rho_mi
   }
 }
 
-TEST(Lattice, every_kept_tet_is_dense_and_counts_are_exact) {
+TEST(Lattice, every_tet_kept_by_density_alone_is_dense_and_counts_are_exact) {
   const Stages s = classify(test::make_ball(), 24);
-  LatticeOptions options = with_cells(5);
+  LatticeOptions options = by_density_alone(5);
   options.rotate = {0.3, -0.2, 0.5};
   options.translate_cells = {0.31, 0.12, 0.77};
   for (const double rho_min : {0.2, 0.5, 0.9}) {
@@ -215,7 +225,7 @@ TEST(Lattice, a_whole_turn_and_two_cells_of_translation_change_nothing) {
 
 TEST(Lattice, tets_smaller_than_a_voxel_are_sampled_not_dropped) {
   const Stages s = classify(test::make_ball(), 10);
-  const LatticeMesh fine = fill(s, with_cells(25));
+  const LatticeMesh fine = fill(s, by_density_alone(25));
   EXPECT_GT(fine.report.sampled_tets, 0U);
   EXPECT_NEAR(fine.report.kept_volume / s.volume.report.volume, 1, 0.05);
 }

@@ -24,8 +24,8 @@ TEST(Smooth, an_empty_mesh_stays_empty) {
 
 TEST(Smooth, steps_of_a_ball_are_more_than_halved_and_its_radius_kept) {
   const TetMesh mesh = ball(0.2);
-  const SmoothResult result = smooth_tets(mesh);
-  expect_kept(mesh, result);
+  const SmoothResult result = smooth_tets(mesh, {.min_dihedral = 15 * kDegree, .max_dihedral = 165 * kDegree});
+  EXPECT_EQ(measure_quality(result.mesh).inverted_tets, 0U);
   EXPECT_LT(roughness(result.mesh), 0.5 * roughness(mesh));
   const double radius = std::cbrt(measure_quality(mesh).volume * 3 / (4 * std::numbers::pi));
   double spread_before = 0, spread_after = 0;

@@ -72,6 +72,13 @@ void take_stage_times(MeshRun& run) {
 void measure(MeshRun& run) {
   const Stopwatch watch;
   run.quality = measure_quality(run.pipeline->smooth().mesh);
+  const LatticeMesh& lattice = run.pipeline->lattice();
+  const TriangleSoup& soup = run.pipeline->soup().soup;
+  constexpr double kMeanEdgeFive = 1.2071, kMeanEdgeBcc = 0.9235;  // of the lattices' tets, in cells
+  const double edge =
+      lattice.report.cell_size * (run.options.lattice.kind == LatticeKind::Five ? kMeanEdgeFive : kMeanEdgeBcc);
+  run.distance = boundary_distance(run.pipeline->smooth().mesh, soup, edge);
+  run.raw_distance = boundary_distance(lattice.mesh, soup, edge);
   run.iou = intersection_over_union(run.pipeline->smooth().mesh, run.pipeline->pseudo_volume().inside);
   run.readiness = assess_readiness(run.pipeline->smooth().mesh, run.quality, run.material);
   run.seconds.quality = watch.seconds();

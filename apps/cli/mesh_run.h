@@ -28,6 +28,8 @@ struct MeshRun {
   MeshOptions options;
   const Pipeline* pipeline = nullptr;  ///< Every stage has run.
   Quality quality;                     ///< Of the final mesh.
+  BoundaryDistance distance;           ///< Of its boundary from the soup, in mean edges of the lattice,
+  BoundaryDistance raw_distance;       ///< and of the lattice's.
   double iou = 0;                      ///< Of the final mesh and the pseudo volume.
   Material material;
   Readiness readiness;

@@ -70,7 +70,9 @@ class Search {
       : filler_(filler), budget_(budget), pose_(start), tuning_(tuning), place_(place_of(start, filler.grid())) {}
 
   Fill run(int most_fills) {
-    const double largest = 4 * filler_.longest_edge(), smallest = filler_.smallest_cell();
+    // Smaller cells would put more tets than are wanted into a single voxel, and fill the memory where nothing helps.
+    const double in_voxel = filler_.grid().voxel_size / std::cbrt(static_cast<double>(budget_.wanted));
+    const double largest = 4 * filler_.longest_edge(), smallest = std::max(filler_.smallest_cell(), in_voxel);
     const double stop = kGoodEnough * budget_.tolerance();
     double cell_size = pose_.cell_size;
     for (int i = 0; i < most_fills; ++i) {

@@ -14,6 +14,8 @@ namespace {
 /// Lattice edges, between centres of tets: a shorter stretch without cover, that is one to some 1.5 edges long, is
 /// left.
 constexpr double kLeastLength = 0.5;
+/// Voxels. Soup and volume differ by a voxel or so, which is more than a tet of a lattice with shorter edges.
+constexpr double kLeastEdge = 3;
 constexpr float kThick = 0.9F;      ///< Share of a tet; what fills one is not thin there.
 constexpr float kTrace = 0.02F;     ///< Share of a tet; a part that has less of it is not in it.
 constexpr float kOfFullest = 0.5F;  ///< A thin part keeps the tets it fills at least half as much as its fullest near.
@@ -41,11 +43,12 @@ struct Extent {
 
 class ThinParts {
  public:
-  explicit ThinParts(Candidates& candidates) : c_(candidates), mesh_(candidates.mesh), faces_(shared_faces(mesh_)) {}
+  explicit ThinParts(Candidates& candidates)
+      : c_(candidates), mesh_(candidates.mesh), faces_(shared_faces(mesh_)), is_bare_(mesh_.tets.size(), 0) {}
 
   std::size_t keep(const BitGrid& inside, const BitGrid& passed, StageWatch& watch) {
     std::size_t count = 0;
-    find_bare_tets();
+    if (mean_edge(mesh_) >= kLeastEdge * passed.frame.voxel_size) find_bare_tets();
     Unions bare(mesh_.tets.size());
     for (const SharedFace& f : faces_)
       if (is_bare_[f.a] && is_bare_[f.b]) bare.join(f.a, f.b);
@@ -91,7 +94,6 @@ class ThinParts {
   void find_bare_tets() {
     std::vector<std::uint8_t> covered(mesh_.vertices.size(), 0);
     for_each_corner([&](std::size_t t, std::uint32_t v) { covered[v] |= c_.kept[t] != 0 || c_.density[t] >= kThick; });
-    is_bare_.assign(mesh_.tets.size(), 0);
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) is_bare_[t] = c_.passed[t] >= kTrace && !has_corner(t, covered);
   }
 

@@ -10,7 +10,7 @@ namespace {
 // What the terms weigh against the shape of one regular tet, 1. Lengths are in mean edges, areas in their squares.
 // Measured at 2,000 tets on all models: twice the distance or half the others leaves 1 degree more of roughness for
 // .003 of overlap, and the other way round.
-constexpr double kDistance = 1500;  // Squared distance of a boundary point from the surface, a unit of area.
+constexpr double kDistance = 2000;  // Squared distance of a boundary point from the surface, a unit of area.
 constexpr double kFlat = 100;       // Squared distance of a corner from where its triangle's mean normal would have it.
 constexpr double kBend = 100;       // Squared distance from where the boundary would bend as it does around.
 
