@@ -50,7 +50,8 @@ void run_field(FieldCommand& command) {
   const std::string raised = describe_raised_voxels(pipeline.soup(), command.options.distance, frame);
   write_stdout(fmt::format(
       "{}{}{}Time: {:.2f} s (read {:.2f}, clean {:.2f}, distance {:.2f}, pseudo volume {:.2f})\nWrote {}\n",
-      describe_soup(command.input, pipeline.soup().report), describe_volume(frame, pipeline.pseudo_volume().report),
+      describe_soup(command.input, pipeline.soup().report),
+      describe_volume(frame, pipeline.pseudo_volume().report, pipeline.soup().report),
       raised.empty() ? "" : "Note: " + raised + "\n", watch.seconds(), read_seconds, pipeline.seconds(Stage::Soup),
       pipeline.seconds(Stage::Distance), pipeline.seconds(Stage::PseudoVolume), command.output));
 }

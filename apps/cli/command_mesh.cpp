@@ -69,16 +69,14 @@ void take_stage_times(MeshRun& run) {
   run.seconds.smooth = seconds(Stage::Smooth);
 }
 
-void measure(MeshRun& run) {
+/// @param compare  Also measures what the report compares with.
+void measure(MeshRun& run, bool compare) {
   const Stopwatch watch;
   run.quality = measure_quality(run.pipeline->smooth().mesh);
   const LatticeMesh& lattice = run.pipeline->lattice();
   const TriangleSoup& soup = run.pipeline->soup().soup;
-  constexpr double kMeanEdgeFive = 1.2071, kMeanEdgeBcc = 0.9235;  // of the lattices' tets, in cells
-  const double edge =
-      lattice.report.cell_size * (run.options.lattice.kind == LatticeKind::Five ? kMeanEdgeFive : kMeanEdgeBcc);
-  run.distance = boundary_distance(run.pipeline->smooth().mesh, soup, edge);
-  run.raw_distance = boundary_distance(lattice.mesh, soup, edge);
+  run.distance = boundary_distance(run.pipeline->smooth().mesh, soup, lattice.report.mean_edge);
+  if (compare) run.raw_distance = boundary_distance(lattice.mesh, soup, lattice.report.mean_edge);
   run.iou = intersection_over_union(run.pipeline->smooth().mesh, run.pipeline->pseudo_volume().inside);
   run.readiness = assess_readiness(run.pipeline->smooth().mesh, run.quality, run.material);
   run.seconds.quality = watch.seconds();
@@ -138,7 +136,7 @@ void run_mesh(MeshCommand& command) {
   run.pipeline = &pipeline;
   take_stage_times(run);
   bar.show("measure");
-  measure(run);
+  measure(run, command.json.has_value());
   bar.show("write");
   NewFiles files;
   write_meshes(command, formats, run, files);

@@ -130,6 +130,7 @@ Json topology_json(const TopologyReport& report) {
 Json lattice_json(const LatticeReport& report) {
   return {{"cells", report.cells},
           {"cell_size", report.cell_size},
+          {"mean_edge", report.mean_edge},
           {"used_cells", report.used_cells},
           {"tet_count", report.tet_count},
           {"sampled_tets", report.sampled_tets},

@@ -93,10 +93,10 @@ std::string describe_result(const MeshRun& run) {
   const Quality& q = run.quality;
   return fmt::format(
       "Result: {}, {}, volume {:.4g}; dihedral angles {:.1f} to {:.1f} degrees; {}; boundary {}; overlap with the "
-      "inside voxels (IoU) {:.3f}.\n",
+      "inside voxels (IoU) {:.3f}; boundary {:.2f} edges from the model on average, 95 % of it within {:.2f}.\n",
       counted(q.tet_count, "tet"), counted(q.vertex_count, "vertex"), q.volume, to_degrees(q.min_dihedral),
       to_degrees(q.max_dihedral), counted(q.components, "piece"), q.boundary_manifold ? "manifold" : "not manifold",
-      run.iou);
+      run.iou, run.distance.mean, run.distance.percentile95);
 }
 
 /// Below this overlap the mesh misses features that its voxels show; the default lattice of solid models reaches more.
@@ -146,8 +146,8 @@ void note_lattice(const MeshRun& run, std::vector<std::string>& notes) {
         counted(lattice.sampled_tets, "tet"),
         doubled(longest_of(unpadded_size(run.pipeline->distance().distance.frame)), kMostVoxels)));
   if (run.iou < kLowOverlap)
-    notes.push_back(fmt::format(
-        "The mesh follows the shape only roughly. More cells follow it more closely: --cells {}.", more_cells));
+    notes.push_back(fmt::format("The mesh follows the shape only roughly. More tets follow it more closely: --tets {}.",
+                                4 * run.quality.tet_count));
 }
 
 void note_faults(const Quality& quality, std::vector<std::string>& notes) {
@@ -213,7 +213,7 @@ std::string describe_raised_voxels(const CleanSoup& soup, const DistanceOptions&
       wanted, frame.voxel_size);
 }
 
-std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& volume) {
+std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& volume, const SoupReport& soup) {
   const std::array<int, 3> size = unpadded_size(frame);
   std::string text = fmt::format("Grid: {} x {} x {} voxels of edge {:.4g}. k = {:.4g} {} (band {:.3g} voxels)",
                                  size[0], size[1], size[2], frame.voxel_size, volume.k,
@@ -223,17 +223,20 @@ std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& vo
   if (volume.cavity_voxels > 0)
     text += fmt::format(", {} of them in cavities that the soup encloses (--cavities keep leaves those hollow)",
                         grouped(volume.cavity_voxels));
-  text += volume.largest_closure > 0
-              ? fmt::format(". The largest hole that was closed is about {:.3g} wide", volume.largest_closure)
-              : std::string(". No hole had to be closed");
-  return text + ".\n";
+  text += ".";
+  if (soup.boundary_edges > 0) {
+    text += volume.largest_closure > 0
+                ? fmt::format(" The largest hole that was closed is about {:.3g} wide.", volume.largest_closure)
+                : std::string(" No hole had to be closed.");
+  }
+  return text + "\n";
 }
 
 std::string describe_run(const MeshRun& run) {
   const Pipeline& pipeline = *run.pipeline;
   const GridFrame& frame = pipeline.distance().distance.frame;
   std::string text = describe_soup(run.input, pipeline.soup().report) +
-                     describe_volume(frame, pipeline.pseudo_volume().report) +
+                     describe_volume(frame, pipeline.pseudo_volume().report, pipeline.soup().report) +
                      describe_lattice(pipeline.lattice().report, pipeline.smooth().report) + describe_result(run);
   std::vector<std::string> notes;
   const std::string raised = describe_raised_voxels(pipeline.soup(), run.options.distance, frame);

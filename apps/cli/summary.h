@@ -27,7 +27,7 @@ std::string describe_soup(const std::string& name, const SoupReport& soup);
 std::string describe_raised_voxels(const CleanSoup& soup, const DistanceOptions& asked, const GridFrame& frame);
 
 /// Grid, event band and what came out inside.
-std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& volume);
+std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& volume, const SoupReport& soup);
 
 /// The whole text that `tetsoup mesh` prints.
 std::string describe_run(const MeshRun& run);

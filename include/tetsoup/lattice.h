@@ -102,6 +102,7 @@ struct LatticeOptions {
 struct LatticeReport {
   std::array<int, 3> cells{0, 0, 0};  ///< Cells along the lattice's axes over the soup's box.
   double cell_size = 0;
+  double mean_edge = 0;        ///< Of the tets before smoothing.
   std::size_t used_cells = 0;  ///< Cells with at least one kept tet.
   std::size_t tet_count = 0;
   std::size_t sampled_tets = 0;    ///< Tets that held no voxel centre and were judged by sampling.

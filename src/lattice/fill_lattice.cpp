@@ -145,6 +145,7 @@ LatticeMesh finished(const Fill& fill, const Filler& filler, const PseudoVolume&
   report = fill.mended;
   report.cells = fill.frame.count;
   report.cell_size = fill.frame.cell_size;
+  report.mean_edge = filler.table().mean_edge * fill.frame.cell_size;
   report.used_cells = count_used_cells(result.mesh, fill.frame);
   report.tet_count = result.mesh.tets.size();
   report.sampled_tets = fill.sampled_tets;

@@ -14,7 +14,7 @@ namespace tetsoup {
 
 namespace {
 
-constexpr int kParts = 4;            // A boundary triangle is asked at the centres of so many parts along each side.
+constexpr int kParts = 3;            // A boundary triangle is asked at the centres of so many parts along each side.
 constexpr double kCodeRange = 8000;  // Morton codes tell an eighth of a unit up to 8191.
 
 /// A binary tree of boxes over the triangles along a Morton curve, halved by count: for a few thousand questions, where
@@ -40,8 +40,7 @@ class TriangleBoxes {
     }
     for (std::size_t node = first_leaf_ - 1; node > 0; --node) {
       boxes_[node] = boxes_[2 * node];
-      boxes_[node].add(boxes_[2 * node + 1].lo);
-      boxes_[node].add(boxes_[2 * node + 1].hi);
+      boxes_[node].add(boxes_[2 * node + 1]);
     }
   }
 
@@ -62,6 +61,7 @@ class TriangleBoxes {
   struct Box {
     Vec3 lo{kFar, kFar, kFar}, hi{-kFar, -kFar, -kFar};
     void add(const Vec3& p) { lo = min(lo, p), hi = max(hi, p); }
+    void add(const Box& box) { lo = min(lo, box.lo), hi = max(hi, box.hi); }  // an empty one adds nothing
     float squared_distance(const Vec3& p) const {
       const float dx = std::max({lo.x - p.x, p.x - hi.x, 0.0F}), dy = std::max({lo.y - p.y, p.y - hi.y, 0.0F}),
                   dz = std::max({lo.z - p.z, p.z - hi.z, 0.0F});

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMinDihedral = 20, kMaxDihedral = 155;  ///< Degrees; outside, elements lock and time steps shrink.
 constexpr double kMaxEdgeRatio = 3.5;
-constexpr double kMaxVolumeRatio = 30;    ///< Largest over smallest tet: beyond, the smallest sets the time step.
+constexpr double kMaxVolumeRatio = 100;    ///< Largest over smallest tet: beyond, the smallest sets the time step.
 constexpr double kMaxBoundaryOnly = 0.5;  ///< Share of tets without an interior vertex: beyond, the body is too stiff.
 constexpr double kRounding = 1e-6;        ///< Relative; a limit that was met by construction counts as met.
 
@@ -89,7 +89,7 @@ Readiness assess_readiness(const TetMesh& mesh, const Quality& quality, const Ma
       at_most("inverted_tets", "tets without positive volume", count(quality.inverted_tets + quality.invalid_tets), 0,
               "mesh the soup again: no engine takes such tets"),
       at_least("min_dihedral_deg", "smallest dihedral angle, degrees", quality.min_dihedral * kDegrees, kMinDihedral,
-               "raise the smoothing's min-angle to 20"),
+               "raise the smoothing's min-angle (25 by default)"),
       at_most("max_dihedral_deg", "largest dihedral angle, degrees", quality.max_dihedral * kDegrees, kMaxDihedral,
               "raise the smoothing's min-angle, or take fewer passes"),
       at_most("max_edge_ratio", "longest over shortest edge of a tet", quality.max_edge_ratio, kMaxEdgeRatio,
