@@ -67,6 +67,7 @@ void bind_lattice_report(nb::module_& m) {
   Record<R>(m, "LatticeReport", "The lattice, and what was kept of it.")
       .field("cells", &R::cells, "Cells along the lattice's axes over the soup's box.")
       .field("cell_size", &R::cell_size, "Edge of a cell, in the soup's unit.")
+      .field("mean_edge", &R::mean_edge, "Of the tets before smoothing, in the soup's unit.")
       .field("used_cells", &R::used_cells, "Cells with at least one kept tet.")
       .field("tet_count", &R::tet_count, "Kept tets.")
       .field("sampled_tets", &R::sampled_tets, "Tets that held no voxel centre and were judged by sampling.")

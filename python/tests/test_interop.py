@@ -66,8 +66,10 @@ def test_votes_in_two_lines_of_pyvista(cube):
     assert grid["votes"][grid.find_closest_point((-0.1, 0.5, 0.5))] == 0
 
 
-def test_polyscope(mesh):
+def test_polyscope(mesh, tmp_path, monkeypatch):
     polyscope = real_package("polyscope")
+    monkeypatch.chdir(tmp_path)  # it leaves files with its settings
+    polyscope.set_use_prefs_file(False)
     try:
         polyscope.init("openGL_mock")  # draws nothing, needs no screen
     except Exception as reason:

@@ -90,7 +90,7 @@ def test_ctrl_c_interrupts_soon_and_leaves_no_file(tmp_path):
         text=True,
     )
     assert process.stdout.readline() == "ready\n"
-    time.sleep(0.3)
+    time.sleep(0.1)
     sent = time.time()
     process.send_signal(signal.SIGINT)
     rest, _ = process.communicate(timeout=60)

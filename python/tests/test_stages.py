@@ -37,11 +37,12 @@ def test_stages_one_by_one_give_what_one_call_gives(torus):
 
 def test_the_distance_between_boundary_and_soup_is_measured(torus):
     volume = tetsoup.classify_volume(tetsoup.unsigned_distance(torus, voxels=48), band_voxels=1)
-    lattice, _ = tetsoup.fill_lattice(volume, torus, cells=12)
+    lattice, report = tetsoup.fill_lattice(volume, torus, cells=12)
     smoothed, _ = tetsoup.smooth(lattice, volume)
     raw, fitted = (tetsoup.boundary_distance(mesh, torus) for mesh in (lattice, smoothed))
     assert 0 < fitted.mean < fitted.percentile95 < raw.percentile95
-    assert tetsoup.boundary_distance(lattice, torus, unit=2).mean == pytest.approx(raw.mean / 2)
+    in_edges = tetsoup.boundary_distance(lattice, torus, unit=report.mean_edge)
+    assert in_edges.mean == pytest.approx(raw.mean / report.mean_edge)
     with pytest.raises(ValueError, match="enclosed has the shape"):
         tetsoup.smooth(lattice, enclosed=[1, 2, 3])
 

@@ -105,7 +105,7 @@ def boundary_distance(mesh: TetMesh, soup: Any, unit: float = 1) -> BoundaryDist
 
     Args:
         soup: whatever `tetrahedralize` takes as one object.
-        unit: length in multiples of which the result is given, such as the mean edge of the lattice.
+        unit: length in multiples of which the result is given, such as `mesh.report.lattice.mean_edge`.
 
     Example:
         >>> tetsoup.boundary_distance(mesh, "bunny.ply").percentile95
