@@ -117,8 +117,10 @@ void Pipeline::run_until(Stage last, const MeshOptions& options, const Progress&
   if (!lattice_) timed(Stage::Lattice, [&] { lattice_ = fill_lattice(*volume_, soup_, options.lattice, progress); });
   if (last == Stage::Lattice) return;
   if (!smooth_) {
-    SmoothTarget target{&volume_->inside, {}};
+    SmoothTarget target;
+    target.inside = &volume_->inside;
     if (options.lattice.cover == Cover::Enclose) target.enclosed = soup_.soup.vertices;
+    if (options.lattice.cover == Cover::Inside) target.stay = Stay::WithinVolume;
     timed(Stage::Smooth, [&] { smooth_ = smooth_tets(lattice_->mesh, target, options.smooth, progress); });
   }
 }

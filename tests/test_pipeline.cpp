@@ -7,6 +7,7 @@
 
 #include "kernel/targets.h"
 #include "shapes.h"
+#include "base/mesh_voxels.h"
 #include "tetsoup/samples.h"
 #include "tetsoup/tetsoup.h"
 
@@ -33,6 +34,27 @@ void expect_valid(const SmoothResult& result, double floor_degrees = 25) {
   EXPECT_GE(q.min_dihedral * 180 / std::numbers::pi, floor_degrees - 1e-6);
   if (result.report.volume_wanted > 0) {
     EXPECT_NEAR(result.report.volume_after / result.report.volume_wanted, 1, 1e-3);
+  }
+}
+
+TEST(Pipeline, a_mesh_that_is_to_stay_within_the_volume_takes_in_no_outside_voxel) {
+  for (const char* name : {"sphere", "robot"}) {
+    Pipeline pipeline(make_sample(name));
+    MeshOptions options = at_voxels(64);
+    options.lattice.tets = 1500;
+    const auto outside = [&] {
+      const Progress nobody;
+      StageWatch watch(nobody, "test");
+      const MeshVoxels voxels = count_mesh_voxels(pipeline.run(options).mesh, pipeline.pseudo_volume().inside, watch);
+      return voxels.in_mesh - voxels.in_both;
+    };
+    EXPECT_GT(outside(), 0U) << "or the test shows nothing";
+    options.lattice.cover = Cover::Inside;
+    options.smooth.passes = 0;
+    EXPECT_EQ(outside(), 0U) << name << ", lattice";
+    options.smooth.passes = 6;
+    EXPECT_EQ(outside(), 0U) << name;
+    expect_valid(pipeline.smooth());
   }
 }
 

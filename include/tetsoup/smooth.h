@@ -27,10 +27,16 @@ struct SmoothOptions {
   bool operator==(const SmoothOptions&) const = default;
 };
 
+enum class Stay {
+  Free,
+  WithinVolume,  ///< The mesh takes in no voxel that is outside and was not in it at the start.
+};
+
 /// What smoothing may know besides the mesh.
 struct SmoothTarget {
   const BitGrid* inside = nullptr;  ///< The pseudo volume whose surface the boundary is drawn to.
-  std::span<const Vec3> enclosed;   ///< Those of them that lie in the mesh at the start stay in it.
+  std::span<const Vec3> enclosed;   ///< Those of them that lie in the mesh at the start stay in it, the others out.
+  Stay stay = Stay::Free;
 };
 
 struct SmoothReport {

@@ -43,8 +43,8 @@ Shape shape_of(const TetCorners& p) {
 }  // namespace
 
 GuardedMesh::GuardedMesh(const TetMesh& start, const Connectivity& links, const ShapeLimits& limits,
-                         std::span<const Vec3> enclosed)
-    : start_(start), links_(links), mesh_(start), enclosed_(enclosed, start, links) {
+                         std::span<const Vec3> sided)
+    : start_(start), links_(links), mesh_(start), sided_(sided, start, links) {
   const double min_cosine = std::cos(limits.min_dihedral + kMargin),
                max_cosine = std::cos(limits.max_dihedral - kMargin);
   const double ratio = limits.max_edge_ratio * (1 - kMargin);
@@ -92,7 +92,7 @@ bool GuardedMesh::move(std::uint32_t vertex, const Vec3d& target) {
     mesh_.vertices[vertex] = to_float(from + way * share);
     if (share == 1 && mesh_.vertices[vertex] == before) return true;
     if (!surroundings_are_sound(vertex)) continue;
-    if (!enclosed_.empty() && !enclosed_.are_kept(vertex, before, mesh_)) continue;
+    if (!sided_.empty() && !sided_.are_kept(vertex, before, mesh_)) continue;
     if (share < 1) ++shortened_moves_;
     return share == 1;
   }

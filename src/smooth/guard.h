@@ -8,7 +8,7 @@
 
 #include "base/tet_geometry.h"
 #include "smooth/connectivity.h"
-#include "smooth/enclosed.h"
+#include "smooth/sided_points.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
@@ -24,23 +24,24 @@ struct ShapeLimits {
 };
 
 /// Every tet keeps, in the float positions that are stored, a share of its first volume and the limits, or what it had
-/// first where that was worse; and what it encloses. Refers to the start and the links: both must outlive it.
+/// first where that was worse; and given points stay on their side of the boundary. Refers to the start and the links:
+/// both must outlive it.
 class GuardedMesh {
  public:
   GuardedMesh(const TetMesh& start, const Connectivity& links, const ShapeLimits& limits,
-              std::span<const Vec3> enclosed = {});
+              std::span<const Vec3> sided = {});
 
   /// Moves a vertex all the way to the target, or a half, a quarter, ... of it, or not at all.
   /// @return  Whether it went all the way.
   bool move(std::uint32_t vertex, const Vec3d& target);
 
-  /// Puts a vertex anywhere; whoever does it asks is_sound() about the tets afterwards. Enclosed points are forgotten.
+  /// Puts a vertex anywhere; whoever does it asks is_sound() about the tets afterwards. Sides are forgotten.
   void place(std::uint32_t vertex, const Vec3& position) { mesh_.vertices[vertex] = position; }
   bool is_sound(std::size_t tet) const;
 
   Vec3d at(std::uint32_t vertex) const { return to_double(mesh_.vertices[vertex]); }
   Vec3d start_of(std::uint32_t vertex) const { return to_double(start_.vertices[vertex]); }
-  bool encloses_points() const { return !enclosed_.empty(); }
+  bool has_sided_points() const { return !sided_.empty(); }
   double volume(std::size_t tet) const { return signed_volume(corners(mesh_, tet)); }
   double start_volume(std::size_t tet) const { return signed_volume(corners(start_, tet)); }
   double min_dihedral() const;
@@ -63,7 +64,7 @@ class GuardedMesh {
   TetMesh mesh_;
   std::vector<Limit> limits_;
   double to_unit_ = 1;  ///< A power of two that makes edges about 1 long, so that no product overflows.
-  EnclosedPoints enclosed_;
+  SidedPoints sided_;
   std::size_t shortened_moves_ = 0;
 };
 

@@ -1,9 +1,11 @@
 #include "tetsoup/smooth.h"
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "base/bits.h"
 #include "base/parallel.h"
 #include "base/require.h"
 #include "base/tet_faces.h"
@@ -71,6 +73,29 @@ void relax_interior(const Connectivity& links, GuardedMesh& mesh, StageWatch& wa
   }
 }
 
+/// The centres of the outside voxels that have an inside one among their 26 neighbours.
+void add_outer_shell(const BitGrid& inside, std::vector<Vec3>& points) {
+  const GridFrame& frame = inside.frame;
+  const BitRows rows(inside);
+  const std::size_t words = inside.words_per_row;
+  for (int z = 0; z < frame.size[2]; ++z) {
+    for (int y = 0; y < frame.size[1]; ++y) {
+      for (std::size_t w = 0; w < words; ++w) {
+        std::uint64_t shell = 0;
+        for (int i = 0; i < 9; ++i) {
+          const std::uint64_t* row = rows.at(y + i % 3 - 1, z + i / 3 - 1);
+          if (row) shell |= row[w] | shifted_up(row, w) | shifted_down(row, w, words);
+        }
+        for (shell &= ~rows.at(y, z)[w]; shell != 0; shell &= shell - 1) {
+          const auto x = static_cast<double>(64 * w + static_cast<std::size_t>(std::countr_zero(shell)));
+          points.push_back(
+              to_float(frame.origin + Vec3d{x, static_cast<double>(y), static_cast<double>(z)} * frame.voxel_size));
+        }
+      }
+    }
+  }
+}
+
 /// Fairing passes, and the volume put right.
 void fair(const Connectivity& links, const SmoothOptions& options, GuardedMesh& mesh, StageWatch& watch) {
   const BoundaryFlow flow(links);
@@ -82,7 +107,7 @@ void fair(const Connectivity& links, const SmoothOptions& options, GuardedMesh& 
     relax_interior(links, mesh, watch);
   }
   watch.enter_part(kShareOfPasses, 1);
-  if (!mesh.encloses_points()) return restore_total_volume(links, mesh, watch);
+  if (!mesh.has_sided_points()) return restore_total_volume(links, mesh, watch);
   double volume = 0;
   for (std::size_t t = 0; t < mesh.mesh().tets.size(); ++t) volume += mesh.start_volume(t);
   approach_volume(links, volume, mesh, watch);
@@ -119,8 +144,9 @@ SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const 
   StageWatch watch(progress, "smooth");
   check(mesh);
   const Connectivity links = connect(mesh);
-  GuardedMesh moving(mesh, links, {options.min_dihedral, options.max_dihedral, options.max_edge_ratio},
-                     target.enclosed);
+  std::vector<Vec3> sided(target.enclosed.begin(), target.enclosed.end());
+  if (target.stay == Stay::WithinVolume && target.inside != nullptr) add_outer_shell(*target.inside, sided);
+  GuardedMesh moving(mesh, links, {options.min_dihedral, options.max_dihedral, options.max_edge_ratio}, sided);
   const bool snaps = options.snap == Snap::Surface && target.inside != nullptr && options.passes > 0;
   if (!snaps) {
     fair(links, options, moving, watch);

@@ -1,4 +1,4 @@
-// Points that must stay in the mesh while its vertices move.
+// Points that must stay on their side of the boundary while its vertices move.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 namespace tetsoup {
 
 /// The points in buckets. Where a vertex of the boundary moves, only points between its triangles' old and new places
-/// can leave the mesh.
-class EnclosedPoints {
+/// can leave the mesh or come into it.
+class SidedPoints {
  public:
-  EnclosedPoints(std::span<const Vec3> points, const TetMesh& mesh, const Connectivity& links);
+  SidedPoints(std::span<const Vec3> points, const TetMesh& mesh, const Connectivity& links);
 
-  /// Whether no point that was in the tets around the vertex, while it was at `before`, is outside of them now.
+  /// Whether the points in the tets around the vertex are those that were in them while it was at `before`.
   bool are_kept(std::uint32_t vertex, const Vec3& before, const TetMesh& mesh) const;
   bool empty() const { return points_.items().empty(); }
 

@@ -1,4 +1,4 @@
-#include "smooth/enclosed.h"
+#include "smooth/sided_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ bool around_holds(const TetMesh& mesh, std::span<const std::uint32_t> tets, std:
 
 }  // namespace
 
-EnclosedPoints::EnclosedPoints(std::span<const Vec3> points, const TetMesh& mesh, const Connectivity& links)
+SidedPoints::SidedPoints(std::span<const Vec3> points, const TetMesh& mesh, const Connectivity& links)
     : links_(&links) {
   if (points.empty() || mesh.tets.empty()) return;
   const auto is_finite = [](const Vec3& p) { return std::isfinite(p.x + p.y + p.z); };
@@ -59,18 +59,18 @@ EnclosedPoints::EnclosedPoints(std::span<const Vec3> points, const TetMesh& mesh
   });
 }
 
-std::array<int, 3> EnclosedPoints::bucket_of(const Vec3d& p) const {
+std::array<int, 3> SidedPoints::bucket_of(const Vec3d& p) const {
   const auto along = [&](double way, int count) {
     return static_cast<int>(std::clamp(std::floor(way / size_), 0.0, static_cast<double>(count - 1)));
   };
   return {along(p.x - lo_.x, count_[0]), along(p.y - lo_.y, count_[1]), along(p.z - lo_.z, count_[2])};
 }
 
-std::size_t EnclosedPoints::index_of(const std::array<int, 3>& b) const {
+std::size_t SidedPoints::index_of(const std::array<int, 3>& b) const {
   return static_cast<std::size_t>((b[2] * count_[1] + b[1]) * count_[0] + b[0]);
 }
 
-bool EnclosedPoints::are_kept(std::uint32_t vertex, const Vec3& before, const TetMesh& mesh) const {
+bool SidedPoints::are_kept(std::uint32_t vertex, const Vec3& before, const TetMesh& mesh) const {
   const Vec3d from = to_double(before), to = to_double(mesh.vertices[vertex]);
   const auto tets = links_->tets[vertex];
   for (const std::uint32_t triangle : links_->boundary_triangles[vertex]) {
@@ -84,7 +84,7 @@ bool EnclosedPoints::are_kept(std::uint32_t vertex, const Vec3& before, const Te
           for (const Vec3& point : points_[index_of({x, y, z})]) {
             const Vec3d p = to_double(point);
             if (!holds({from, to, a, b}, p)) continue;
-            if (around_holds(mesh, tets, vertex, from, p) && !around_holds(mesh, tets, vertex, to, p)) return false;
+            if (around_holds(mesh, tets, vertex, from, p) != around_holds(mesh, tets, vertex, to, p)) return false;
           }
         }
       }
