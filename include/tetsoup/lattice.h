@@ -128,15 +128,19 @@ struct LatticeMesh {
   LatticeReport report;
 };
 
-/// Lays a lattice of cubes, five tets each, over the pseudo volume and keeps the tets that are dense enough.
+/// Lays a lattice of tets over the pseudo volume, keeps those that are dense enough, and mends what density leaves.
 ///
 /// A tet's density is the share of inside voxels among all voxels whose centre it holds [Spillmann06 §4], counted
 /// exactly: every voxel centre belongs to exactly one tet. A tet too small to hold one is judged at 35 sample points
-/// instead. If nothing is dense enough (a lone sheet, a needle), the tets that the soup passes through are kept.
+/// instead. If nothing is dense enough (a lone sheet, a needle), the tets that the soup passes through are kept. Then
+/// come stairs, thin parts, separation and the clean-up of the topology, as the options say, and the edge is searched
+/// for, in at most eight fills, with which all that leaves the wanted count.
 ///
-/// @return  Positive tets, faces matching, never empty if the soup is not; vertices and tets in lattice order.
+/// @return  Positive tets, faces matching, boundary a closed manifold unless Touching::Leave, never empty if the soup
+/// is
+///          not; vertices and tets in lattice order, doubled and split ones behind.
 /// @throws InvalidInput  if an option is out of range or the lattice would have more than 2^31 tets; Cancelled.
-/// Cost: O(cells + voxels near the boundary of the pseudo volume).
+/// Cost: per fill O(cells + voxels near the boundary of the pseudo volume + tets log tets).
 LatticeMesh fill_lattice(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options = {},
                          const Progress& progress = {});
 
