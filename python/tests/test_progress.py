@@ -88,6 +88,8 @@ def test_ctrl_c_interrupts_soon_and_leaves_no_file(tmp_path):
         cwd=tmp_path,
         stdout=subprocess.PIPE,
         text=True,
+        # Whoever runs the tests in the background ignores it, and so would the child.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     assert process.stdout.readline() == "ready\n"
     time.sleep(0.1)

@@ -42,8 +42,10 @@ class TetRows {
       const double offset = -dot(n, a) + margin * reach + kRounding;
       if (std::abs(n.x) < kParallel) {
         parallel_[parallels_++] = {offset, n.y, n.z};
+      } else if (n.x > 0) {
+        low_[lows_++] = {-offset / n.x, -n.y / n.x, -n.z / n.x};
       } else {
-        (n.x > 0 ? low_[lows_++] : high_[highs_++]) = {-offset / n.x, -n.y / n.x, -n.z / n.x};
+        high_[highs_++] = {-offset / n.x, -n.y / n.x, -n.z / n.x};
       }
     }
   }

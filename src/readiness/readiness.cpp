@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMinDihedral = 20, kMaxDihedral = 155;  ///< Degrees; outside, elements lock and time steps shrink.
 constexpr double kMaxEdgeRatio = 3.5;
-constexpr double kMaxVolumeRatio = 100;    ///< Largest over smallest tet: beyond, the smallest sets the time step.
+constexpr double kMaxVolumeRatio = 100;   ///< Largest over smallest tet: beyond, the smallest sets the time step.
 constexpr double kMaxBoundaryOnly = 0.5;  ///< Share of tets without an interior vertex: beyond, the body is too stiff.
 constexpr double kRounding = 1e-6;        ///< Relative; a limit that was met by construction counts as met.
 
