@@ -1,3 +1,4 @@
+#include <functional>
 #include <thread>
 
 #include "bench_rows.h"
@@ -83,13 +84,23 @@ void add_thread_rows(const Case& which) {
 void add_stage_rows(const Case& which) {
   add_distance_row("distance_band", which, DistanceMode::Band);
   add_signs_rows(which);
-  add_row(row_name("lattice", which), [which](benchmark::State& state) {
-    const Prepared& ready = prepared(which.soup, which.voxels);
-    LatticeReport report;
-    for (auto _ : state)
-      report = fill_lattice(ready.pipeline.pseudo_volume(), ready.pipeline.soup(), ready.options.lattice).report;
-    state.counters["tets"] = count_of(report.tet_count);
+  const auto add_lattice_row = [&](const std::string& what, const std::function<void(LatticeOptions&)>& change) {
+    add_row(row_name(what, which), [which, change](benchmark::State& state) {
+      const Prepared& ready = prepared(which.soup, which.voxels);
+      LatticeOptions options = ready.options.lattice;
+      change(options);
+      LatticeReport report;
+      for (auto _ : state) report = fill_lattice(ready.pipeline.pseudo_volume(), ready.pipeline.soup(), options).report;
+      state.counters["tets"] = count_of(report.tet_count);
+    });
+  };
+  add_lattice_row("lattice", [](LatticeOptions& options) {
+    options.stairs = Stairs::Leave;
+    options.thin = Thin::Drop;
+    options.separate = Separate::Together;
+    options.topology = {Touching::Leave, 0, Bubbles::Keep, BoundaryOnly::Leave};
   });
+  add_lattice_row("lattice_mended", [](LatticeOptions&) {});
   add_row(row_name("smooth", which), [which](benchmark::State& state) {
     const Prepared& ready = prepared(which.soup, which.voxels);
     const TetMesh& mesh = ready.pipeline.lattice().mesh;

@@ -135,8 +135,10 @@ void run_mesh(MeshCommand& command) {
   run.options = command.options;
   run.pipeline = &pipeline;
   take_stage_times(run);
-  bar.show("measure");
-  measure(run, command.json.has_value());
+  if (!command.run.quiet || command.json || command.preview) {  // or nobody would see it
+    bar.show("measure");
+    measure(run, command.json.has_value());
+  }
   bar.show("write");
   NewFiles files;
   write_meshes(command, formats, run, files);

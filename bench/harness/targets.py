@@ -11,6 +11,7 @@ STAGES = [
     ("signs, one k, 26 rays", "signs_one_k", {128: 12, 256: 80, 512: 700}),
     ("signs, automatic k", "signs_auto", {128: 60, 256: 350, 512: 3000}),
     ("lattice and density, 3K tets", "lattice", {128: 10, 256: 40, 512: 250}),
+    ("lattice with all that mends it, 3K tets", "lattice_mended", {}),
     ("smoothing at its defaults, 3K tets", "smooth", {128: 15}),
     ("**whole tool, file to file**", "tool", {64: 100, 128: 250, 256: 900, 512: 6000}),
 ]
