@@ -6,6 +6,7 @@
 #include "lattice/tet_locator.h"
 #include "lattice_shapes.h"
 #include "shapes.h"
+#include "stages.h"
 #include "tetsoup/lattice.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/samples.h"
@@ -13,22 +14,11 @@
 namespace tetsoup {
 namespace {
 
+using test::classify;
+using test::fill;
 using test::joined;
 using test::make_ball;
-
-struct Stages {
-  CleanSoup soup;
-  PseudoVolume volume;
-};
-
-Stages classify(const TriangleSoup& soup, int voxels) {
-  Stages s{clean_soup(soup), {}};
-  DistanceOptions options;
-  options.voxels = voxels;
-  options.band_voxels = 10;
-  s.volume = classify_volume(unsigned_distance(s.soup, options));
-  return s;
-}
+using test::Stages;
 
 /// Cells of this edge; density and thin parts only, no clean-up.
 LatticeOptions plain(double cell_size, LatticeKind kind = LatticeKind::Five) {
@@ -38,10 +28,6 @@ LatticeOptions plain(double cell_size, LatticeKind kind = LatticeKind::Five) {
   options.separate = Separate::Together;
   options.topology = {Touching::Leave, 0, Bubbles::Keep, BoundaryOnly::Leave};
   return options;
-}
-
-LatticeMesh fill(const Stages& s, const LatticeOptions& options) {
-  return fill_lattice(s.volume, s.soup, options);
 }
 
 /// A closed rod with round ends, down from a point.

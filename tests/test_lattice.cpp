@@ -8,6 +8,7 @@
 #include "base/tet_geometry.h"
 #include "lattice/five_tets.h"
 #include "shapes.h"
+#include "stages.h"
 #include "tetsoup/error.h"
 #include "tetsoup/lattice.h"
 #include "tetsoup/quality.h"
@@ -16,23 +17,9 @@
 namespace tetsoup {
 namespace {
 
-struct Stages {
-  CleanSoup soup;
-  PseudoVolume volume;
-};
-
-Stages classify(const TriangleSoup& soup, int voxels) {
-  Stages s{clean_soup(soup), {}};
-  DistanceOptions options;
-  options.voxels = voxels;
-  options.band_voxels = 10;
-  s.volume = classify_volume(unsigned_distance(s.soup, options));
-  return s;
-}
-
-LatticeMesh fill(const Stages& s, const LatticeOptions& options = {}) {
-  return fill_lattice(s.volume, s.soup, options);
-}
+using test::classify;
+using test::fill;
+using test::Stages;
 
 LatticeOptions with_cells(int cells) {
   LatticeOptions options;

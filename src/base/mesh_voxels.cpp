@@ -66,10 +66,7 @@ std::vector<TetCorners> tets_in_voxels(const TetMesh& mesh, const GridFrame& fra
   tets.reserve(mesh.tets.size());
   for (const Tet& tet : mesh.tets) {
     if (!is_valid_tet(tet, mesh.vertices.size())) continue;
-    TetCorners p;
-    for (std::size_t i = 0; i < 4; ++i) {
-      p[i] = (to_double(mesh.vertices[tet[i]]) - frame.origin) * (1 / frame.voxel_size);
-    }
+    const TetCorners p = corners_in_voxels(mesh, tet, frame);
     const double volume = signed_volume(p);
     if (std::isfinite(volume) && volume != 0) tets.push_back(p);
   }

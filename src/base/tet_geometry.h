@@ -11,6 +11,17 @@ namespace tetsoup {
 
 using TetCorners = std::array<Vec3d, 4>;
 
+inline TetCorners corners_of(const TetMesh& mesh, const Tet& tet) {
+  return {to_double(mesh.vertices[tet[0]]), to_double(mesh.vertices[tet[1]]), to_double(mesh.vertices[tet[2]]),
+          to_double(mesh.vertices[tet[3]])};
+}
+/// The same in voxels of the grid: voxel centres are the whole numbers.
+inline TetCorners corners_in_voxels(const TetMesh& mesh, const Tet& tet, const GridFrame& grid) {
+  TetCorners p = corners_of(mesh, tet);
+  for (Vec3d& corner : p) corner = (corner - grid.origin) * (1 / grid.voxel_size);
+  return p;
+}
+
 /// Faces of a positive tet, each counter-clockwise from outside; face i lies opposite vertex i.
 inline constexpr std::array<std::array<int, 3>, 4> kTetFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 /// Edges of a tet; edge e is shared by the two faces opposite the vertices of edge 5 - e.

@@ -64,9 +64,7 @@ double given_cell_size(const LatticeOptions& o, const Filler& filler, const Grid
 
 double volume_of(const TetMesh& mesh) {
   double sum = 0;
-  for (const Tet& t : mesh.tets)
-    sum += signed_volume(to_double(mesh.vertices[t[0]]), to_double(mesh.vertices[t[1]]), to_double(mesh.vertices[t[2]]),
-                         to_double(mesh.vertices[t[3]]));
+  for (const Tet& t : mesh.tets) sum += signed_volume(corners_of(mesh, t));
   return sum;
 }
 

@@ -91,7 +91,7 @@ std::size_t store_copies(Candidates& candidates, Copies& copies, const CopyVerti
 double smallest_tet(const TetMesh& mesh, const GridFrame& grid) {
   double smallest = std::numeric_limits<double>::max();
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    smallest = std::min(smallest, signed_volume(corners_in_voxels(mesh, t, grid)));
+    smallest = std::min(smallest, signed_volume(corners_in_voxels(mesh, mesh.tets[t], grid)));
   return smallest;
 }
 

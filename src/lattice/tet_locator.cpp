@@ -9,12 +9,6 @@ namespace {
 constexpr double kOnFace = 1e-5;
 constexpr double kBucketsPerTet = 2;
 
-TetCorners corners_of(const TetMesh& mesh, const Tet& tet) {
-  TetCorners p;
-  for (std::size_t i = 0; i < 4; ++i) p[i] = to_double(mesh.vertices[tet[i]]);
-  return p;
-}
-
 }  // namespace
 
 TetLocator::TetLocator(const TetMesh& mesh) {

@@ -29,9 +29,9 @@ struct Range {
 
 /// The voxels of a row that lie in a tet grown by some share of a voxel. What a plane leaves of a row begins or ends at
 /// x = y * p.y + z * p.z + p.x.
-class TetRows {
+class GrownTet {
  public:
-  TetRows(const TetCorners& p, double margin) {
+  GrownTet(const TetCorners& p, double margin) {
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& face = kTetFaces[i];
       const Vec3d a = p[static_cast<std::size_t>(face[0])];
@@ -69,13 +69,6 @@ class TetRows {
 
 }  // namespace
 
-TetCorners corners_in_voxels(const TetMesh& mesh, std::size_t tet, const GridFrame& grid) {
-  TetCorners p;
-  for (std::size_t i = 0; i < 4; ++i)
-    p[i] = (to_double(mesh.vertices[mesh.tets[tet][i]]) - grid.origin) * (1 / grid.voxel_size);
-  return p;
-}
-
 /// Finds the pieces of one tet after the other: runs of voxels along x, joined from row to row.
 class TetPieces::Finder {
  public:
@@ -84,7 +77,7 @@ class TetPieces::Finder {
   /// `voxels`: those that the tet holds.
   Found find(const TetCorners& corners, double voxels) {
     box_of(corners);
-    collect(TetRows(corners, 1));
+    collect(GrownTet(corners, 1));
     Found found;
     if (runs_.empty()) return found;
     name_runs(found);
@@ -92,7 +85,7 @@ class TetPieces::Finder {
       found.voxels[0] = static_cast<std::uint32_t>(voxels);
       return found;
     }
-    const TetRows own(corners, 0);
+    const GrownTet own(corners, 0);
     for (const Run& run : runs_) {
       const Range range = own.narrowed({run.begin, run.end}, run.y, run.z);
       found.voxels[run.piece] += static_cast<std::uint32_t>(std::max(0, range.end - range.begin));
@@ -120,7 +113,7 @@ class TetPieces::Finder {
            static_cast<std::size_t>(y - y_.begin);
   }
 
-  void collect(const TetRows& rows) {
+  void collect(const GrownTet& rows) {
     runs_.clear();
     row_begin_.assign(1, 0);
     for (int z = z_.begin; z < z_.end; ++z) {
@@ -174,7 +167,7 @@ TetPieces::TetPieces(const Candidates& candidates, const std::vector<float>& den
     Finder finder(inside);
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
       if (density[t] > 0 && density[t] < 1) {
-        const TetCorners corners = corners_in_voxels(mesh, t, inside.frame);
+        const TetCorners corners = corners_in_voxels(mesh, mesh.tets[t], inside.frame);
         found[t] = finder.find(corners, static_cast<double>(density[t]) * signed_volume(corners));
       }
       if (found[t].voxels.empty() && (density[t] > 0 || candidates.kept[t])) found[t].voxels.push_back(0);

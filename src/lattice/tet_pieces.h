@@ -11,9 +11,6 @@
 
 namespace tetsoup {
 
-/// The four corners in voxels of the grid: voxel centres are the whole numbers.
-TetCorners corners_in_voxels(const TetMesh& mesh, std::size_t tet, const GridFrame& grid);
-
 /// A tet's piece is a set of inside voxels whose cubes reach into the tet, connected there through faces, edges and
 /// corners: so a sheet one voxel thick holds together in any direction, and what counts as apart has a voxel between.
 class TetPieces {

@@ -13,11 +13,6 @@ namespace tetsoup {
 
 namespace {
 
-TetCorners corners_of(const TetMesh& mesh, const Tet& tet) {
-  return {to_double(mesh.vertices[tet[0]]), to_double(mesh.vertices[tet[1]]), to_double(mesh.vertices[tet[2]]),
-          to_double(mesh.vertices[tet[3]])};
-}
-
 struct EdgeLengths {
   double shortest = std::numeric_limits<double>::infinity();
   double longest = 0;

@@ -47,9 +47,7 @@ double stable_time_step(const TetMesh& mesh, const Material& material) {
   double largest = 0;
   for (const Tet& tet : mesh.tets) {
     if (!is_valid_tet(tet, mesh.vertices.size())) continue;
-    largest = std::max(
-        largest, largest_gradient_eigenvalue({to_double(mesh.vertices[tet[0]]), to_double(mesh.vertices[tet[1]]),
-                                              to_double(mesh.vertices[tet[2]]), to_double(mesh.vertices[tet[3]])}));
+    largest = std::max(largest, largest_gradient_eigenvalue(corners_of(mesh, tet)));
   }
   if (!(largest > 0) || std::isinf(largest)) return 0;
   return material.metres_per_unit *

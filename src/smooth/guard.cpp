@@ -49,12 +49,12 @@ GuardedMesh::GuardedMesh(const TetMesh& start, const Connectivity& links, const 
                max_cosine = std::cos(limits.max_dihedral - kMargin);
   const double ratio = limits.max_edge_ratio * (1 - kMargin);
   if (!start.tets.empty()) {
-    const TetCorners p = corners(start, 0);
+    const TetCorners p = corners_of(start, start.tets[0]);
     to_unit_ = std::exp2(-std::round(std::log2(length(p[1] - p[0]))));
   }
   limits_.reserve(start.tets.size());
   for (std::size_t t = 0; t < start.tets.size(); ++t) {
-    TetCorners p = corners(start, t);
+    TetCorners p = corners_of(start, start.tets[t]);
     for (Vec3d& corner : p) corner = corner * to_unit_;
     const Shape shape = shape_of(p);
     limits_.push_back({kVolumeShare * start_volume(t) * to_unit_ * to_unit_ * to_unit_,
@@ -63,14 +63,8 @@ GuardedMesh::GuardedMesh(const TetMesh& start, const Connectivity& links, const 
   }
 }
 
-TetCorners GuardedMesh::corners(const TetMesh& mesh, std::size_t tet) {
-  const Tet& v = mesh.tets[tet];
-  return {to_double(mesh.vertices[v[0]]), to_double(mesh.vertices[v[1]]), to_double(mesh.vertices[v[2]]),
-          to_double(mesh.vertices[v[3]])};
-}
-
 bool GuardedMesh::is_sound(std::size_t tet) const {
-  TetCorners p = corners(mesh_, tet);
+  TetCorners p = corners_of(mesh_, mesh_.tets[tet]);
   for (Vec3d& corner : p) corner = corner * to_unit_;
   const Limit& limit = limits_[tet];
   const double volume = signed_volume(p);
@@ -104,7 +98,7 @@ bool GuardedMesh::move(std::uint32_t vertex, const Vec3d& target) {
 double GuardedMesh::min_dihedral() const {
   double cosine = -1;
   for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-    const auto cosines = dihedral_cosines(corners(mesh_, t));
+    const auto cosines = dihedral_cosines(corners_of(mesh_, mesh_.tets[t]));
     cosine = std::max(cosine, *std::max_element(cosines.begin(), cosines.end()));
   }
   return mesh_.tets.empty() ? 0 : std::acos(cosine);

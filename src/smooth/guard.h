@@ -42,14 +42,13 @@ class GuardedMesh {
   Vec3d at(std::uint32_t vertex) const { return to_double(mesh_.vertices[vertex]); }
   Vec3d start_of(std::uint32_t vertex) const { return to_double(start_.vertices[vertex]); }
   bool has_sided_points() const { return !sided_.empty(); }
-  double volume(std::size_t tet) const { return signed_volume(corners(mesh_, tet)); }
-  double start_volume(std::size_t tet) const { return signed_volume(corners(start_, tet)); }
+  double volume(std::size_t tet) const { return signed_volume(corners_of(mesh_, mesh_.tets[tet])); }
+  double start_volume(std::size_t tet) const { return signed_volume(corners_of(start_, start_.tets[tet])); }
   double min_dihedral() const;
   const TetMesh& mesh() const { return mesh_; }
   std::size_t shortened_moves() const { return shortened_moves_; }
 
  private:
-  static TetCorners corners(const TetMesh& mesh, std::size_t tet);
   bool surroundings_are_sound(std::uint32_t vertex) const;
 
   struct Limit {

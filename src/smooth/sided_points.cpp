@@ -22,11 +22,6 @@ bool holds(const TetCorners& tet, const Vec3d& p) {
   return true;
 }
 
-TetCorners corners_of(const TetMesh& mesh, const Tet& tet) {
-  return {to_double(mesh.vertices[tet[0]]), to_double(mesh.vertices[tet[1]]), to_double(mesh.vertices[tet[2]]),
-          to_double(mesh.vertices[tet[3]])};
-}
-
 bool around_holds(const TetMesh& mesh, std::span<const std::uint32_t> tets, std::uint32_t vertex, const Vec3d& place,
                   const Vec3d& p) {
   return std::any_of(tets.begin(), tets.end(), [&](std::uint32_t t) {

@@ -37,8 +37,7 @@ void check(const TetMesh& mesh) {
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const Tet& tet = mesh.tets[t];
     if (!is_valid_tet(tet, mesh.vertices.size())) require(false, name(t), "invalid", "four different vertices");
-    const double volume = signed_volume(to_double(mesh.vertices[tet[0]]), to_double(mesh.vertices[tet[1]]),
-                                        to_double(mesh.vertices[tet[2]]), to_double(mesh.vertices[tet[3]]));
+    const double volume = signed_volume(corners_of(mesh, tet));
     if (!(volume > 0) || !std::isfinite(volume)) require(false, name(t) + " volume", volume, "above 0 and finite");
   }
 }
@@ -77,16 +76,10 @@ void relax_interior(const Connectivity& links, GuardedMesh& mesh, StageWatch& wa
 void add_outer_shell(const BitGrid& inside, std::vector<Vec3>& points) {
   const GridFrame& frame = inside.frame;
   const BitRows rows(inside);
-  const std::size_t words = inside.words_per_row;
   for (int z = 0; z < frame.size[2]; ++z) {
     for (int y = 0; y < frame.size[1]; ++y) {
-      for (std::size_t w = 0; w < words; ++w) {
-        std::uint64_t shell = 0;
-        for (int i = 0; i < 9; ++i) {
-          const std::uint64_t* row = rows.at(y + i % 3 - 1, z + i / 3 - 1);
-          if (row) shell |= row[w] | shifted_up(row, w) | shifted_down(row, w, words);
-        }
-        for (shell &= ~rows.at(y, z)[w]; shell != 0; shell &= shell - 1) {
+      for (std::size_t w = 0; w < inside.words_per_row; ++w) {
+        for (std::uint64_t shell = rows.grown(y, z, w) & ~rows.at(y, z)[w]; shell != 0; shell &= shell - 1) {
           const auto x = static_cast<double>(64 * w + static_cast<std::size_t>(std::countr_zero(shell)));
           points.push_back(
               to_float(frame.origin + Vec3d{x, static_cast<double>(y), static_cast<double>(z)} * frame.voxel_size));
