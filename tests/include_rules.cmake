@@ -2,9 +2,11 @@
 # header it names.
 
 # The flow. A layer sees the public headers of itself and of what stands before it, and its own private headers.
-set(layers soup distance pseudo_volume lattice smooth quality readiness embed simulate pipeline io)
+set(layers soup distance pseudo_volume lattice smooth quality readiness embed regions simulate pipeline io)
+# Public headers of a layer that has several.
+set(io_headers tet_model engines)
 # Public headers without a layer; everybody sees them. They see each other.
-set(common_headers types error progress)
+set(common_headers types error progress render_mesh)
 # Private folders that every layer sees.
 set(common_folders base kernel)
 # Each third-party library of the core lives in one place.
@@ -54,6 +56,8 @@ function(include_layer_of out path)
     set(name ${CMAKE_MATCH_2})
     if(name IN_LIST common_headers OR name IN_LIST common_folders)
       set(layer common)
+    elseif(name IN_LIST io_headers)
+      set(layer io)
     elseif(name IN_LIST layers OR name STREQUAL "samples")
       set(layer ${name})
     endif()

@@ -13,6 +13,8 @@
 
 #include "tetsoup/distance.h"
 #include "tetsoup/pseudo_volume.h"
+#include "tetsoup/render_mesh.h"
+#include "tetsoup/tet_model.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
@@ -27,6 +29,15 @@ enum class SoupFormat { Obj, Stl, Ply, Off, Gltf };
 /// @throws IoError  if the file cannot be read or is not what it says; the text names the line or the byte offset.
 TriangleSoup read_soup(const std::filesystem::path& path);
 
+/// The same file with polygons, texture coordinates, normals and names; triangles_of() it is what read_soup() gives,
+/// bit for bit, so an embedding of that refers to these vertices.
+RenderMesh read_render_mesh(const std::filesystem::path& path);
+
+/// Its faces cut into fans, as read_soup() does.
+TriangleSoup triangles_of(const RenderMesh& mesh);
+/// The face of every triangle of triangles_of().
+std::vector<std::uint32_t> triangle_faces(const RenderMesh& mesh);
+
 /// The same from memory; `name` stands for the path in errors. External buffers of a .gltf are not followed.
 TriangleSoup parse_soup(std::span<const std::byte> bytes, SoupFormat format, std::string_view name);
 
@@ -40,13 +51,21 @@ void write_surface(const std::filesystem::path& path, std::span<const Vec3> vert
 // --- Tet meshes -----------------------------------------------------------------------------------------------------
 
 enum class TetFormat {
-  Msh41,   ///< Gmsh MSH 4.1 ASCII, one node block, one element block, sequential tags from 1.
-  Msh22,   ///< Gmsh MSH 2.2 ASCII.
-  Vtk,     ///< Legacy VTK 3.0 ASCII, one point a line.
-  Vtu,     ///< VTK XML, inline base64.
-  Medit,   ///< .mesh
-  Tetgen,  ///< .node and .ele side by side, 0-based; the path may name either or have no extension.
-  Surface  ///< Boundary triangles only: .obj, .stl, .ply.
+  Msh41,     ///< Gmsh MSH 4.1 ASCII, one node block, one element block, sequential tags from 1.
+  Msh22,     ///< Gmsh MSH 2.2 ASCII.
+  Vtk,       ///< Legacy VTK 3.0 ASCII, one point a line.
+  Vtu,       ///< VTK XML, inline base64.
+  Medit,     ///< .mesh
+  Tetgen,    ///< .node, .ele and .face side by side, 0-based; the path may name any or have no extension.
+  IsaacGym,  ///< .tet: lines `v x y z`, then `t a b c d`.
+  Vega,      ///< .veg
+  Abaqus,    ///< .inp: *NODE, *ELEMENT, TYPE=C3D4.
+  Netgen,    ///< .vol, whose tets are negative.
+  Npz,       ///< NumPy arrays: vertices, tet_indices.
+  Json,      ///< vertices, edges, tets, surface triangles.
+  Usd,       ///< .usda: UsdGeomTetMesh, with the render mesh and its embedding.
+  ObjTets,   ///< .obj with one four-cornered face a tet, as Blender's users have it.
+  Surface    ///< Boundary triangles only: .obj, .stl, .ply.
 };
 
 /// Names and extensions of the formats, for help texts: {"msh", "Gmsh MSH 4.1 (.msh)", Msh41} ...
@@ -66,6 +85,16 @@ TetFormat tet_format_of(const std::filesystem::path& path);
 /// @return  The files written.
 std::vector<std::filesystem::path> write_tets(const std::filesystem::path& path, const TetMesh& mesh,
                                               std::optional<TetFormat> format = {});
+
+/// The same with regions, pins, material, render mesh and embedding, as far as the format has a place for them.
+std::vector<std::filesystem::path> write_tets(const std::filesystem::path& path, const TetModel& model,
+                                              std::optional<TetFormat> format = {});
+
+/// Writes an embedding by extension: .npz (arrays `tets` (N) int32, `weights` (N, 4) and `distances` (N) float32) or
+/// .embedding (docs/FORMATS.md has its layout). Atomic.
+void write_embedding(const std::filesystem::path& path, const Embedding& embedding);
+/// Reads either back. @throws IoError
+Embedding read_embedding(const std::filesystem::path& path);
 
 /// Reads a tet mesh in any of the formats above that holds tets; other cells are skipped.
 TetMesh read_tets(const std::filesystem::path& path);

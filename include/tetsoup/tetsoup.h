@@ -17,6 +17,8 @@
 #include "tetsoup/smooth.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/readiness.h"
+#include "tetsoup/embed.h"
+#include "tetsoup/regions.h"
 #include "tetsoup/pipeline.h"
 
 namespace tetsoup {

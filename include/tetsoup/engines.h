@@ -1,0 +1,45 @@
+// tetsoup::io: what each simulation engine wants to read, and a scene that it runs at once.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tetsoup/io.h"
+#include "tetsoup/tet_model.h"
+
+namespace tetsoup {
+
+/// One engine's wishes.
+struct Engine {
+  std::string name;     ///< As `--for` takes it: "mujoco".
+  std::string title;    ///< "MuJoCo"
+  std::string summary;  ///< One line: file, base, orientation, unit, scene.
+  TetFormat format;
+  std::string extension;        ///< Of the mesh file, with the dot.
+  std::string scene_extension;  ///< What the scene's file adds to the stem: ".xml", "_sofa.py"; empty: there is none.
+};
+
+/// All of them, in alphabetical order.
+const std::vector<Engine>& engines();
+
+/// @throws InvalidInput  listing them, if there is none of that name.
+const Engine& find_engine(std::string_view name);
+
+/// Files that write_for_engine() would write: the mesh's first. `path` may leave the extension out.
+/// @throws InvalidInput  if the path has another extension than the engine's.
+std::vector<std::filesystem::path> engine_files(const Engine& engine, const std::filesystem::path& path);
+
+/// Writes the mesh as this engine reads it (in metres, positive tets unless it wants others) and beside it, where there
+/// is one, a scene that drops the body on a plane and runs as it stands. All files appear, or none.
+///
+/// The scene's stiffness is what the model says, unless that needs a shorter time step than the engine's default: then
+/// it is as stiff as that step allows if `material_is_default`, else the scene takes a shorter step.
+/// @return  The files written, the mesh's first.
+/// @throws InvalidInput  as engine_files(); IoError.
+std::vector<std::filesystem::path> write_for_engine(const Engine& engine, const std::filesystem::path& path,
+                                                    const TetModel& model, bool material_is_default = true);
+
+}  // namespace tetsoup

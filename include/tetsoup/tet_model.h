@@ -1,0 +1,35 @@
+// tetsoup: a tet mesh with all that a simulation engine's file may say about it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tetsoup/embed.h"
+#include "tetsoup/readiness.h"
+#include "tetsoup/regions.h"
+#include "tetsoup/render_mesh.h"
+#include "tetsoup/types.h"
+
+namespace tetsoup {
+
+struct Region {
+  std::string name;
+  Material material;
+};
+
+enum class UpAxis { X, Y, Z };
+
+/// What is written. All but the mesh may be missing.
+struct TetModel {
+  std::string name = "body";  ///< Of the body, in files that name things.
+  TetMesh mesh;
+  std::vector<Region> regions{{}};         ///< At least one.
+  std::vector<std::uint32_t> tet_regions;  ///< Region of every tet; empty: all are of the first.
+  std::vector<VertexSet> pins;             ///< Vertices to be held.
+  RenderMesh render;                       ///< The input's own surface,
+  Embedding embedding;                     ///< and where its vertices lie in the mesh.
+  UpAxis up = UpAxis::Z;                   ///< Of the model, for the scene it is placed in.
+};
+
+}  // namespace tetsoup
