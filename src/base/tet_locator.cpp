@@ -5,8 +5,6 @@
 namespace tetsoup {
 namespace {
 
-/// Edges of a bucket: single-precision vertices put a point on a face up to this far outside.
-constexpr double kOnFace = 1e-5;
 constexpr double kBucketsPerTet = 2;
 /// Flat and empty meshes would have no end of buckets along their sides.
 constexpr double kMostBucketsPerTet = 16;
@@ -24,7 +22,7 @@ double bucket_edge(const Vec3d& size, double largest_volume, double tet_count) {
 
 }  // namespace
 
-TetLocator::TetLocator(const TetMesh& mesh) {
+TetLocator::TetLocator(const TetMesh& mesh, double on_face) {
   if (mesh.tets.empty()) return;
   Vec3d lo = corners_of(mesh, mesh.tets.front())[0], hi = lo;
   double volume = 0;
@@ -53,7 +51,7 @@ TetLocator::TetLocator(const TetMesh& mesh) {
       const Vec3d a = p[static_cast<std::size_t>(face[0])];
       Vec3d n = cross(p[static_cast<std::size_t>(face[2])] - a, p[static_cast<std::size_t>(face[1])] - a);
       n = n * (1 / length(n));
-      planes_[t][i] = {n, -dot(n, a) + kOnFace * edge_};
+      planes_[t][i] = {n, -dot(n, a) + on_face * edge_};
     }
   }
   tets_ = Groups<std::uint32_t>(number_of({count_[0] - 1, count_[1] - 1, count_[2] - 1}) + 1, [&](const auto& put) {

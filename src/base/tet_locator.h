@@ -12,8 +12,11 @@ namespace tetsoup {
 
 class TetLocator {
  public:
+  /// Edges of a bucket: single-precision vertices put a point on a face up to this far outside.
+  static constexpr double kOnFace = 1e-5;
+
   /// Indices are valid and vertices finite; tets that are flat or inverted hold nothing. O(tets).
-  explicit TetLocator(const TetMesh& mesh);
+  explicit TetLocator(const TetMesh& mesh, double on_face = kOnFace);
 
   /// visit(tet) for every tet that holds the point or has it on its faces, in ascending order.
   template <class Visit>

@@ -11,6 +11,10 @@
 namespace tetsoup {
 namespace {
 
+/// A cluster returns its guests if it is this many times as large: of loose leaves with a few points each none is the
+/// host.
+constexpr std::size_t kHostSize = 4;
+
 /// Heights of a tet: nearer than this to its own piece's tets a guest is moved there; farther off that piece has no
 /// tets around it, and the guest stays.
 constexpr double kNear = 1;
@@ -33,7 +37,7 @@ std::vector<Triangle> usable_triangles(const TriangleSoup& soup) {
 class OwnCopies {
  public:
   OwnCopies(const TetMesh& mesh, const TriangleSoup& soup, const TetFinder& finder, std::vector<std::uint32_t>& tets)
-      : mesh_(mesh), walk_(mesh), point_tets_(tets), triangles_(usable_triangles(soup)) {
+      : mesh_(mesh), finder_(finder), walk_(mesh), point_tets_(tets), triangles_(usable_triangles(soup)) {
     merged_ = merge_vertices(soup.vertices, triangles_);
     const std::size_t count = merged_.positions.size();
     tets_.resize(count);
@@ -46,7 +50,10 @@ class OwnCopies {
       }
     });
     settled_.resize(count);
-    for (std::uint32_t v = 0; v < count; ++v) settled_[v] = !finder.is_in_several(place(v));
+    for (std::uint32_t v = 0; v < count; ++v) {
+      settled_[v] = !finder.is_in_several(place(v));
+      encloses_ = encloses_ && finder.holds(tets_[v], place(v));
+    }
   }
 
   std::size_t run() {
@@ -100,7 +107,9 @@ class OwnCopies {
     }
     for (std::size_t v = 0; v < tets_.size(); ++v) {
       const std::size_t cluster = clusters.find(v);
-      if (cluster != largest[pieces.find(v)] && 2 * guests[cluster] > size[cluster]) settled_[v] = 0;
+      const std::size_t host = largest[pieces.find(v)];
+      if (host == kNobody || size[host] < kHostSize * size[cluster]) continue;
+      if (2 * guests[cluster] > size[cluster]) settled_[v] = 0;
     }
   }
 
@@ -123,7 +132,9 @@ class OwnCopies {
     for (const std::uint32_t other : neighbours_[node]) {
       if (settled_[other] != 0) continue;
       const std::uint32_t tet = walk_.best_at_end(tets_[node], place(node), place(other));
-      if (least_weight(corners_of(mesh_, mesh_.tets[tet]), place(other)) < -kNear) continue;
+      const bool fits = encloses_ ? finder_.holds(tet, place(other))
+                                  : least_weight(corners_of(mesh_, mesh_.tets[tet]), place(other)) >= -kNear;
+      if (!fits) continue;
       tets_[other] = tet;
       settled_[other] = 1;
       queue.push_back(other);
@@ -133,6 +144,8 @@ class OwnCopies {
   static constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 
   const TetMesh& mesh_;
+  const TetFinder& finder_;
+  bool encloses_ = true;
   TetWalk walk_;
   std::vector<std::uint32_t>& point_tets_;
   std::vector<Triangle> triangles_;

@@ -10,6 +10,9 @@ namespace {
 /// Least weight of a point well inside of a tet: a point on a face that two tets share has 0 in both, within rounding.
 constexpr double kWellInside = 1e-3;
 
+/// Edges of a tet: what enclosing and smoothing take for inside stays inside.
+constexpr double kOnFace = 5e-5;
+
 /// Squared distances that differ by less, relative to themselves, are of one corner or edge seen from two triangles.
 constexpr double kSameDistance = 1e-6;
 
@@ -33,7 +36,7 @@ TriangleSoup surface_of(const TetMesh& mesh, const std::vector<std::uint64_t>& s
 
 TetFinder::TetFinder(const TetMesh& mesh, StageWatch& watch)
     : mesh_(mesh),
-      locator_(mesh),
+      locator_(mesh, kOnFace),
       slots_(surface_slots(mesh)),
       boundary_(surface_of(mesh, slots_)),
       boxes_(boundary_, watch) {}
