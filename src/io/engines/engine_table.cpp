@@ -57,8 +57,9 @@ std::vector<Engine> engine_table() {
 
 const std::map<std::string_view, std::string_view>& engine_aliases() {
   static const std::map<std::string_view, std::string_view> aliases{
-      {"blender-tets", "blender"}, {"ftetwild", "mmg"},   {"isaaclab", "isaac"}, {"isaacsim", "isaac"},
-      {"ngsolve", "netgen"},       {"omniverse", "isaac"}, {"pybullet", "bullet"}, {"unity", "unity-json"},
+      {"ccx", "calculix"},    {"ftetwild", "mmg"},     {"isaaclab", "isaac"},  {"isaacsim", "isaac"},
+      {"ngsolve", "netgen"},  {"omniverse", "isaac"},  {"physx", "isaac"},     {"pybullet", "bullet"},
+      {"three.js", "threejs"}, {"unity", "unity-json"},
   };
   return aliases;
 }
