@@ -88,8 +88,7 @@ void measure(MeshRun& run, bool compare) {
   run.seconds.quality = watch.seconds();
 }
 
-void write_meshes(const MeshCommand& command, const std::vector<PlannedMesh>& planned, MeshRun& run,
-                  NewFiles& files) {
+void write_meshes(const MeshCommand& command, const std::vector<PlannedMesh>& planned, MeshRun& run, NewFiles& files) {
   const Stopwatch watch;
   const TetModel model = make_model(run, command.model);
   for (const PlannedMesh& mesh : planned) {

@@ -65,9 +65,8 @@ std::vector<PlannedMesh> plan_meshes(const WantedMeshes& wanted, Outputs& output
                                    wanted.engine ? "--for" : "--format"));
   std::vector<PlannedMesh> planned;
   if (wanted.engine) {
-    const Engine& engine = with_flag("--for", [&]() -> std::reference_wrapper<const Engine> {
-      return find_engine(*wanted.engine);
-    });
+    const Engine& engine =
+        with_flag("--for", [&]() -> std::reference_wrapper<const Engine> { return find_engine(*wanted.engine); });
     const std::filesystem::path path = wanted.paths.front();
     planned.push_back({path, engine.format, &engine, with_flag("-o", [&] { return engine_files(engine, path); })});
     for (const auto& file : planned.back().files) outputs.add("-o", file);
@@ -81,9 +80,8 @@ std::vector<PlannedMesh> plan_meshes(const WantedMeshes& wanted, Outputs& output
 }
 
 void write_planned(const PlannedMesh& planned, const TetModel& model, bool material_is_default, MeshRun& run) {
-  const auto written = planned.engine
-                           ? write_for_engine(*planned.engine, planned.path, model, material_is_default)
-                           : write_tets(planned.path, model, planned.format);
+  const auto written = planned.engine ? write_for_engine(*planned.engine, planned.path, model, material_is_default)
+                                      : write_tets(planned.path, model, planned.format);
   run.outputs.insert(run.outputs.end(), written.begin(), written.end());
   if (!planned.engine) return;
   run.engine = planned.engine->name;

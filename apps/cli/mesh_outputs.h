@@ -24,7 +24,7 @@ struct WantedMeshes {
 struct PlannedMesh {
   std::filesystem::path path;
   TetFormat format = TetFormat::Msh41;
-  const Engine* engine = nullptr;             ///< If it is for one; its wishes count then.
+  const Engine* engine = nullptr;            ///< If it is for one; its wishes count then.
   std::vector<std::filesystem::path> files;  ///< All that may be written.
 };
 

@@ -12,17 +12,22 @@ namespace {
 
 constexpr std::size_t kLongestName = 60;  // Of 80 that Abaqus and CalculiX take: writers and numbers add to it.
 
-bool is_word_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+bool is_letter_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
+// Whatever stands between letters and digits becomes one underscore.
 std::string word_of(std::string_view wanted, std::string_view fallback) {
   std::string word;
-  for (const char c : wanted)
-    if (is_word_character(c) || (!word.empty() && word.back() != '_')) word += is_word_character(c) ? c : '_';
-  while (word.ends_with('_')) word.pop_back();
+  for (const char c : wanted) {
+    if (is_letter_or_digit(c))
+      word += c;
+    else if (!word.empty() && word.back() != '_')
+      word += '_';
+  }
+  if (word.ends_with('_')) word.pop_back();
   if (word.empty()) return std::string(fallback);
-  if (std::isalpha(static_cast<unsigned char>(word[0])) == 0) word = std::string(fallback) + '_' + word;
+  if (word[0] >= '0' && word[0] <= '9') word = std::string(fallback) + '_' + word;
   return word.substr(0, kLongestName);
 }
 

@@ -1,5 +1,5 @@
-// A tet mesh as JSON of flat arrays of numbers: what JavaScript turns into typed arrays and what Unity's and Godot's own
-// readers take, which know no arrays within arrays. Numbers are written as in all other formats.
+// A tet mesh as JSON of flat arrays of numbers: what JavaScript turns into typed arrays and what Unity's and Godot's
+// own readers take, which know no arrays within arrays. Numbers are written as in all other formats.
 #include <array>
 #include <cmath>
 #include <concepts>

@@ -58,8 +58,7 @@ std::vector<SurfaceElement> surface_elements(const TetModel& model, Surfaces& su
     if (end - begin > 2 || outer == domain(owner)) continue;
     const Tet& tet = model.mesh.tets[faces[owner].slot / 4];
     Triangle corners;
-    for (std::size_t k = 0; k < 3; ++k)
-      corners[k] = tet[static_cast<std::size_t>(kTetFaces[faces[owner].slot % 4][k])];
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = tet[static_cast<std::size_t>(kTetFaces[faces[owner].slot % 4][k])];
     elements.push_back({corners, domain(owner), outer, surfaces.number(domain(owner), outer)});
   }
   return elements;

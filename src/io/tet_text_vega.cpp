@@ -12,7 +12,7 @@ namespace tetsoup {
 
 namespace {
 
-constexpr std::size_t kPerLine = 8;  // As Vega writes; its reader takes 1023 characters a line.
+constexpr std::size_t kPerLine = 8;                 // As Vega writes; its reader takes 1023 characters a line.
 constexpr const char* kEverything = "allElements";  // A set that its reader makes itself.
 
 void append_material(std::string& text, const std::string& name, const Material& material) {
