@@ -25,6 +25,8 @@ struct Timings {
 struct MeshRun {
   std::string input;
   std::vector<std::filesystem::path> outputs;  ///< Files written, the report itself left out.
+  std::string engine;                          ///< That they were written for; empty: none.
+  std::string next_step;                       ///< What to do with them, one line; empty where that is open.
   MeshOptions options;
   const Pipeline* pipeline = nullptr;  ///< Every stage has run.
   Quality quality;                     ///< Of the final mesh.

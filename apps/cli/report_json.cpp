@@ -265,6 +265,7 @@ std::string mesh_report_json(const MeshRun& run) {
                   {"version", TETSOUP_VERSION},
                   {"input", run.input},
                   {"outputs", outputs},
+                  {"engine", run.engine.empty() ? Json() : Json(run.engine)},
                   {"options", options_json(run.options)},
                   {"grid", grid_json(pipeline.distance())},
                   {"pseudo_volume", pseudo_volume_json(volume)},

@@ -251,6 +251,7 @@ std::string describe_run(const MeshRun& run) {
   text += describe_readiness(run.readiness, run.material);
   text += describe_seconds(run.seconds);
   for (const auto& path : run.outputs) text += "Wrote " + path.string() + "\n";
+  if (!run.next_step.empty()) text += "Next: " + run.next_step + "\n";
   return text;
 }
 

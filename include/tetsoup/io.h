@@ -95,8 +95,11 @@ struct TetFormatInfo {
 };
 const std::vector<TetFormatInfo>& tet_formats();
 
-/// Format by extension: .msh is 4.1; throws IoError listing the known extensions.
+/// Format by extension: .msh is 4.1, .obj the boundary; throws IoError listing the known extensions.
 TetFormat tet_format_of(const std::filesystem::path& path);
+
+/// All files that write_tets() may write: three of TetGen's, Vega's list of pins beside its mesh.
+std::vector<std::filesystem::path> tet_files(const std::filesystem::path& path, TetFormat format);
 
 /// Writes a mesh; format by extension unless given. Atomic: the file (or files) appear whole or not at all, and an
 /// existing one stays as it was if anything fails.
@@ -114,10 +117,11 @@ void write_embedding(const std::filesystem::path& path, const Embedding& embeddi
 /// Reads either back. @throws IoError
 Embedding read_embedding(const std::filesystem::path& path);
 
-/// Reads a tet mesh in any of the formats above that holds tets; other cells are skipped.
+/// Reads a tet mesh: MSH, VTK, VTU, MEDIT or TetGen; other cells are skipped.
 TetMesh read_tets(const std::filesystem::path& path);
 
-/// True if the path names, by extension and first bytes, a file that read_tets() takes rather than read_soup().
+/// True if the path names, by extension and first bytes, a file of tets, which read_tets() takes, or refuses with the
+/// reason, rather than read_soup().
 bool is_tet_file(const std::filesystem::path& path);
 
 // --- Fields and pictures --------------------------------------------------------------------------------------------
