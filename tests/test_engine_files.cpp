@@ -27,7 +27,7 @@ std::string refusal_of(const Act& act) {
 
 /// Formats whose writer may not be built in.
 bool is_written(const Engine& engine) {
-  return engine.format != TetFormat::Npz && engine.format != TetFormat::Usd;
+  return engine.format != TetFormat::Usd;
 }
 
 }  // namespace

@@ -4,10 +4,6 @@
 
 namespace tetsoup {
 
-std::string npz_text(const TetModel&) {
-  throw InvalidInput("format npz: not built in");
-}
-
 std::string usda_text(const TetModel&) {
   throw InvalidInput("format usd: not built in");
 }
