@@ -191,6 +191,25 @@ TEST(TetTexts, the_faces_that_abaqus_is_told_are_the_boundary) {
   EXPECT_EQ(listed, expected);
 }
 
+TEST(TetTexts, abaqus_gets_no_number_longer_than_its_fields_of_20_characters) {
+  TetModel model;
+  model.mesh = few_tets();
+  model.mesh.vertices.push_back({-1.2345679e-5F, -12345.678F, -3.4028235e38F});
+  model.regions.front().material = {1000.0 / 3, 1e-5 / 3, 0.1 + 0.2, 1};
+  for (const std::string& line : lines_of(abaqus_text(model))) {
+    if (line.starts_with('*')) continue;
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');)
+      EXPECT_LE(field.size() - field.find_first_not_of(' '), 20U) << line;
+  }
+  const auto lines = lines_of(abaqus_text(model));
+  for (std::size_t i = 0; i < model.mesh.vertices.size(); ++i) {
+    const std::vector<double> row = numbers_of(lines.at(2 + i));
+    const Vec3& v = model.mesh.vertices[i];
+    EXPECT_EQ((Vec3{static_cast<float>(row.at(1)), static_cast<float>(row.at(2)), static_cast<float>(row.at(3))}), v);
+  }
+}
+
 TEST(TetTexts, solvers_without_units_get_a_material_in_the_meshs_own) {
   TetModel model;
   model.mesh = two_tets();
