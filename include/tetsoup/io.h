@@ -30,7 +30,10 @@ enum class SoupFormat { Obj, Stl, Ply, Off, Gltf };
 TriangleSoup read_soup(const std::filesystem::path& path);
 
 /// The same file with polygons, texture coordinates, normals and names; triangles_of() it is what read_soup() gives,
-/// bit for bit, so an embedding of that refers to these vertices.
+/// bit for bit, so an embedding of that refers to these vertices. OBJ has all of it (several groups are one name with
+/// blanks between), glTF triangles whose object is the node's name or else the mesh's, PLY texture coordinates and
+/// normals, STL the solids' names. Texture coordinates and normals that cannot be read are left out.
+/// @throws IoError  as read_soup() does, or if the names, repeated for every part, took far more than the file.
 RenderMesh read_render_mesh(const std::filesystem::path& path);
 
 /// Its faces cut into fans, as read_soup() does.
@@ -38,8 +41,23 @@ TriangleSoup triangles_of(const RenderMesh& mesh);
 /// The face of every triangle of triangles_of().
 std::vector<std::uint32_t> triangle_faces(const RenderMesh& mesh);
 
+enum class PartKind { Object, Group, Material };
+struct PartName {
+  PartKind kind = PartKind::Object;
+  std::string name;
+  std::size_t triangle_count = 0;
+};
+/// The names that faces have: objects, groups, materials, each in the order of the file. One name may be of two kinds.
+std::vector<PartName> part_names(const RenderMesh& mesh);
+
+/// Writes polygons, texture coordinates, normals and names as OBJ; read_render_mesh() of it gives the mesh again, but
+/// for blanks in names. With other vertices it is the same surface deformed. Atomic.
+/// @throws InvalidInput  if sizes do not fit together; IoError, also if the extension is not .obj.
+void write_render_mesh(const std::filesystem::path& path, const RenderMesh& mesh);
+
 /// The same from memory; `name` stands for the path in errors. External buffers of a .gltf are not followed.
 TriangleSoup parse_soup(std::span<const std::byte> bytes, SoupFormat format, std::string_view name);
+RenderMesh parse_render_mesh(std::span<const std::byte> bytes, SoupFormat format, std::string_view name);
 
 enum class SurfaceFormat { Obj, StlBinary, Ply };
 
