@@ -258,6 +258,9 @@ TEST(TetTexts, json_is_flat_arrays) {
   model.up = UpAxis::Y;
   model.embedding.tets = {1, 0};
   model.embedding.weights = {{0.25F, 0.25F, 0.25F, 0.25F}, {1, 0, 0, 0}};
+  model.render.vertices = {{0, 0, 0}, {0.5F, 0, 0}, {0.5F, 0.5F, 0}, {0, 0.5F, 0}};
+  model.render.face_sizes = {4};
+  model.render.corners = {0, 1, 2, 3};
   const Json json = Json::parse(json_text(model));
   EXPECT_EQ(json.at("name"), "a \"b\"");
   EXPECT_EQ(json.at("up"), "y");
@@ -270,16 +273,19 @@ TEST(TetTexts, json_is_flat_arrays) {
   EXPECT_EQ(json.at("regions").at(1), Json::parse(R"({"name": "LEFT_ARM", "density": 500, "young": 4000,
                                                        "poisson": 0.375})"));
   EXPECT_EQ(json.at("pins").at(0), Json::parse(R"({"name": "floor", "vertices": [0, 2]})"));
+  EXPECT_EQ(json.at("render").at("vertices").size(), 12U);
+  EXPECT_EQ(json.at("render").at("triangles"), (Json{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(json.at("embedding").at("tets"), (Json{1, 0}));
   EXPECT_EQ(json.at("embedding").at("weights"), (Json{0.25, 0.25, 0.25, 0.25, 1, 0, 0, 0}));
 }
 
-TEST(TetTexts, json_without_an_embedding_has_none_and_is_valid_with_any_number) {
+TEST(TetTexts, json_without_a_surface_or_an_embedding_has_none_and_is_valid_with_any_number) {
   TetModel model;
   model.mesh = two_tets();
   model.mesh.vertices[4].x = std::numeric_limits<float>::infinity();
   const Json json = Json::parse(json_text(model));
   EXPECT_FALSE(json.contains("embedding"));
+  EXPECT_FALSE(json.contains("render"));
   EXPECT_TRUE(json.at("vertices").at(12).is_null());
   EXPECT_TRUE(json.at("tet_regions").empty());
 }
