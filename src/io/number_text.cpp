@@ -64,6 +64,10 @@ void append_number(std::string& text, double value) {
   append_shortest(text, value);
 }
 
+void append_float(std::string& text, float value) {
+  append_shortest(text, value);
+}
+
 bool parse_real(std::string_view word, float& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
   return parse_plain(word, value);

@@ -16,6 +16,9 @@ inline void append_number(std::string& text, float value) {
   append_number(text, static_cast<double>(value));
 }
 
+/// The float's own shortest decimals, for files whose readers read floats.
+void append_float(std::string& text, float value);
+
 template <std::integral Integer>
 void append_number(std::string& text, Integer value) {
   char digits[24];
