@@ -58,6 +58,7 @@ std::vector<Dialect> all_dialects(const TetMesh& mesh) {
           {"vtu_base64", vtu(mesh, VtuData::AppendedBase64), parse_vtu},
           {"vtu_big_endian", vtu(mesh, VtuData::BigEndian), parse_vtu},
           {"medit", written(mesh, TetFormat::Medit), parse_medit},
+          {"npz", written(mesh, TetFormat::Npz), parse_npz},
           {"medit_with_extras", medit_with_extras(mesh), parse_medit},
           {"node", own_nodes, with_tets(own_tets)},
           {"node_from_one", nodes, with_tets(tets)},
@@ -110,6 +111,7 @@ TEST_F(ReadTetsTest, what_was_written_is_read_back_through_the_file_system) {
                                                                                    {"m.vtk", TetFormat::Vtk},
                                                                                    {"m.vtu", TetFormat::Vtu},
                                                                                    {"m.mesh", TetFormat::Medit},
+                                                                                   {"m.npz", TetFormat::Npz},
                                                                                    {"m.node", TetFormat::Tetgen}}) {
     SCOPED_TRACE(name);
     for (const fs::path& path : write_tets(folder_ / name, mesh, format)) {

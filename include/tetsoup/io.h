@@ -114,10 +114,13 @@ std::vector<std::filesystem::path> write_tets(const std::filesystem::path& path,
 /// Writes an embedding by extension: .npz (arrays `tets` (N) int32, `weights` (N, 4) and `distances` (N) float32) or
 /// .embedding (docs/FORMATS.md has its layout). Atomic.
 void write_embedding(const std::filesystem::path& path, const Embedding& embedding);
-/// Reads either back. @throws IoError
+/// Reads either back, told from its first bytes; the report counts what the distances tell.
+/// @throws IoError  if the file is not what it says: arrays that are missing, cut short, or not of as many points.
 Embedding read_embedding(const std::filesystem::path& path);
+/// The same from memory; `name` stands for the path in errors.
+Embedding parse_embedding(std::span<const std::byte> bytes, std::string_view name);
 
-/// Reads a tet mesh: MSH, VTK, VTU, MEDIT or TetGen; other cells are skipped.
+/// Reads a tet mesh: MSH, VTK, VTU, MEDIT, TetGen or NPZ; other cells are skipped.
 TetMesh read_tets(const std::filesystem::path& path);
 
 /// True if the path names, by extension and first bytes, a file of tets, which read_tets() takes, or refuses with the

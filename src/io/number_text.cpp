@@ -81,6 +81,10 @@ void append_number_within(std::string& text, double value, std::size_t most) {
   }
 }
 
+void append_float(std::string& text, float value) {
+  append_shortest(text, value);
+}
+
 bool parse_real(std::string_view word, float& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
   return parse_plain(word, value);

@@ -49,7 +49,7 @@ std::string read_whole(const fs::path& path) {
   return read_bytes(path, static_cast<std::size_t>(-1));
 }
 
-enum class Content { Msh, Vtk, Vtu, Medit, Tetgen, WrittenOnly, Unknown };
+enum class Content { Msh, Vtk, Vtu, Medit, Npz, Tetgen, WrittenOnly, Unknown };
 
 Content content_of(std::string_view head) {
   const auto begins = [&](std::string_view mark) { return head.starts_with(mark); };
@@ -65,6 +65,7 @@ Content content_named(const std::string& extension) {
   if (extension == ".vtk") return Content::Vtk;
   if (extension == ".vtu") return Content::Vtu;
   if (extension == ".mesh") return Content::Medit;
+  if (extension == ".npz") return Content::Npz;
   if (extension == ".node" || extension == ".ele" || extension == ".face") return Content::Tetgen;
   for (const TetFormatInfo& info : tet_formats())
     if (extension == info.extension && extension != ".obj") return Content::WrittenOnly;
@@ -99,6 +100,8 @@ TetMesh read_tets(const fs::path& path) {
       return parse_vtu(bytes, name);
     case Content::Medit:
       return parse_medit(bytes, name);
+    case Content::Npz:
+      return parse_npz(bytes, name);
     case Content::WrittenOnly:
       throw IoError(name + ": tetsoup writes such files but does not read them; it reads " + readable_tet_extensions());
     default:

@@ -34,7 +34,7 @@ TetgenSet tetgen_set(const fs::path& path) {
 }
 
 std::string readable_tet_extensions() {
-  return ".msh, .vtk, .vtu, .mesh, .node, .ele";
+  return ".msh, .vtk, .vtu, .mesh, .npz, .node, .ele";
 }
 
 const std::vector<TetFormatInfo>& tet_formats() {

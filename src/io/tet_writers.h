@@ -38,6 +38,9 @@ std::string netgen_text(const TetModel& model);
 /// docs/FORMATS.md has its layout.
 std::string json_text(const TetModel& model);
 std::string obj_tets_text(const TetModel& model);
+/// NumPy arrays as Newton names them: vertices (P, 3), k_mu and k_lambda (T) float32, tet_indices (T, 4) int32,
+/// density. Only models that have such also hold tet_regions, tet_densities (T), region_names, pin_<name>,
+/// embedding_tets (N), embedding_weights (N, 4), render_vertices (N, 3).
 std::string npz_text(const TetModel& model);
 std::string usda_text(const TetModel& model);
 
