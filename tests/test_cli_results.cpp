@@ -137,7 +137,8 @@ TEST_F(Tool, ctrl_c_stops_a_long_run_and_leaves_no_file) {
 TEST_F(Tool, writes_several_formats_and_a_picture_in_one_run) {
   const Outcome outcome = mesh_cube({"-o", "cube.vtk", "-o", "cube.node", "-o", "skin.stl", "--preview", "cube.png"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(files(), (Words{"cube.ele", "cube.msh", "cube.node", "cube.obj", "cube.png", "cube.vtk", "skin.stl"}));
+  EXPECT_EQ(files(),
+            (Words{"cube.ele", "cube.face", "cube.msh", "cube.node", "cube.obj", "cube.png", "cube.vtk", "skin.stl"}));
 }
 
 TEST_F(Tool, takes_a_format_by_name) {

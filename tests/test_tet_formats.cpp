@@ -191,6 +191,25 @@ TEST(TetTexts, the_faces_that_abaqus_is_told_are_the_boundary) {
   EXPECT_EQ(listed, expected);
 }
 
+TEST(TetTexts, abaqus_gets_no_number_longer_than_its_fields_of_20_characters) {
+  TetModel model;
+  model.mesh = few_tets();
+  model.mesh.vertices.push_back({-1.2345679e-5F, -12345.678F, -3.4028235e38F});
+  model.regions.front().material = {1000.0 / 3, 1e-5 / 3, 0.1 + 0.2, 1};
+  for (const std::string& line : lines_of(abaqus_text(model))) {
+    if (line.starts_with('*')) continue;
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');)
+      EXPECT_LE(field.size() - field.find_first_not_of(' '), 20U) << line;
+  }
+  const auto lines = lines_of(abaqus_text(model));
+  for (std::size_t i = 0; i < model.mesh.vertices.size(); ++i) {
+    const std::vector<double> row = numbers_of(lines.at(2 + i));
+    const Vec3& v = model.mesh.vertices[i];
+    EXPECT_EQ((Vec3{static_cast<float>(row.at(1)), static_cast<float>(row.at(2)), static_cast<float>(row.at(3))}), v);
+  }
+}
+
 TEST(TetTexts, solvers_without_units_get_a_material_in_the_meshs_own) {
   TetModel model;
   model.mesh = two_tets();
@@ -239,6 +258,9 @@ TEST(TetTexts, json_is_flat_arrays) {
   model.up = UpAxis::Y;
   model.embedding.tets = {1, 0};
   model.embedding.weights = {{0.25F, 0.25F, 0.25F, 0.25F}, {1, 0, 0, 0}};
+  model.render.vertices = {{0, 0, 0}, {0.5F, 0, 0}, {0.5F, 0.5F, 0}, {0, 0.5F, 0}};
+  model.render.face_sizes = {4};
+  model.render.corners = {0, 1, 2, 3};
   const Json json = Json::parse(json_text(model));
   EXPECT_EQ(json.at("name"), "a \"b\"");
   EXPECT_EQ(json.at("up"), "y");
@@ -251,16 +273,19 @@ TEST(TetTexts, json_is_flat_arrays) {
   EXPECT_EQ(json.at("regions").at(1), Json::parse(R"({"name": "LEFT_ARM", "density": 500, "young": 4000,
                                                        "poisson": 0.375})"));
   EXPECT_EQ(json.at("pins").at(0), Json::parse(R"({"name": "floor", "vertices": [0, 2]})"));
+  EXPECT_EQ(json.at("render").at("vertices").size(), 12U);
+  EXPECT_EQ(json.at("render").at("triangles"), (Json{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(json.at("embedding").at("tets"), (Json{1, 0}));
   EXPECT_EQ(json.at("embedding").at("weights"), (Json{0.25, 0.25, 0.25, 0.25, 1, 0, 0, 0}));
 }
 
-TEST(TetTexts, json_without_an_embedding_has_none_and_is_valid_with_any_number) {
+TEST(TetTexts, json_without_a_surface_or_an_embedding_has_none_and_is_valid_with_any_number) {
   TetModel model;
   model.mesh = two_tets();
   model.mesh.vertices[4].x = std::numeric_limits<float>::infinity();
   const Json json = Json::parse(json_text(model));
   EXPECT_FALSE(json.contains("embedding"));
+  EXPECT_FALSE(json.contains("render"));
   EXPECT_TRUE(json.at("vertices").at(12).is_null());
   EXPECT_TRUE(json.at("tet_regions").empty());
 }

@@ -1,6 +1,7 @@
 // tetsoup mesh: a soup in, a tet mesh out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "angles.h"
@@ -34,16 +35,6 @@ struct MeshCommand {
   RunOptions run;
 };
 
-void add_up_flag(CLI::App& app, std::optional<UpAxis>& up) {
-  add_flag(
-      app, "--up", "x|y|z",
-      [&up](const std::string& text) {
-        if (text != "x" && text != "y" && text != "z") throw InvalidInput("--up " + text + ": must be x, y or z");
-        up = text == "x" ? UpAxis::X : text == "y" ? UpAxis::Y : UpAxis::Z;
-      },
-      "Axis of the model that points up in scenes (y for .obj .gltf .glb,\nelse z)");
-}
-
 constexpr const char* kExamples =
     "Examples:\n"
     "  tetsoup mesh bunny.ply -o bunny.msh                     about 2,000 tets, everything chosen for you\n"
@@ -51,16 +42,26 @@ constexpr const char* kExamples =
     "  tetsoup mesh bunny.ply -o bunny.msh --lattice bcc --fit  tets all alike, laid where they meet the shape best\n"
     "  tetsoup mesh tree.obj -o tree.msh --band-voxels 2       bridge wider gaps between loose triangles\n"
     "  tetsoup mesh bunny.obj -o bunny --for mujoco            what an engine reads, in metres\n"
+    "  tetsoup mesh bunny.obj -o bunny.usda --enclose           the model itself inside the tets, to be moved by them\n"
+    "  tetsoup mesh lamp.glb -o lamp --for calculix --regions material --region brass=8500,1e11,0.34 --pin-below y:0\n"
     "  tetsoup mesh part.stl -o part.inp --format inp --metres-per-unit 0.001\n"
     "  tetsoup mesh part.stl -o part.msh --voxels 256 --preview part.png --json part.json\n"
     "\n"
     "Exit codes: 0 done, 1 internal error or out of memory, 2 wrong usage or option, 3 a file cannot be read or\n"
     "written, 4 nothing in the file can be meshed, 130 cancelled.";
 
+void add_embedding(Outputs& outputs, const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".npz" && extension != ".embedding")
+    throw InvalidInput("--embed " + path + ": the name must end in .npz or .embedding");
+  outputs.add("--embed", path);
+}
+
 /// Everything about the outputs that can be wrong is found here, before the work starts.
 std::vector<PlannedMesh> check_outputs(const MeshCommand& command) {
   Outputs outputs(command.input);
   std::vector<PlannedMesh> planned = plan_meshes(command.meshes, outputs);
+  if (command.model.embed) add_embedding(outputs, *command.model.embed);
   if (command.preview) outputs.add("--preview", *command.preview, ".png");
   if (command.json && *command.json != "-") outputs.add("--json", *command.json);
   return planned;
@@ -88,13 +89,27 @@ void measure(MeshRun& run, bool compare) {
   run.seconds.quality = watch.seconds();
 }
 
+/// The input as its file describes it, where something is to be made of that; else empty.
+RenderMesh read_surface(const MeshCommand& command, const std::vector<PlannedMesh>& planned) {
+  const bool held =
+      std::any_of(planned.begin(), planned.end(), [](const PlannedMesh& mesh) { return holds_surface(mesh.format); });
+  RenderMesh surface;
+  if (wants_surface(command.model, held)) surface = read_input_surface(command.input);
+  check_names(command.model, surface);
+  return surface;
+}
+
 void write_meshes(const MeshCommand& command, const std::vector<PlannedMesh>& planned, MeshRun& run, NewFiles& files) {
   const Stopwatch watch;
-  const TetModel model = make_model(run, command.model);
   for (const PlannedMesh& mesh : planned) {
     throw_if_interrupted();
     files.expect_all(mesh.files);
-    write_planned(mesh, model, command.material_is_default, run);
+    write_planned(mesh, run.model, command.material_is_default, run);
+  }
+  if (command.model.embed) {
+    files.expect(*command.model.embed);
+    write_embedding(*command.model.embed, run.model.embedding);
+    run.outputs.push_back(*command.model.embed);
   }
   run.seconds.write = watch.seconds();
 }
@@ -132,12 +147,14 @@ void run_mesh(MeshCommand& command) {
   MeshRun run;
   run.input = command.input;
   run.material = command.material;
-  const Pipeline pipeline = [&] {
-    Pipeline opened = open_pipeline(command.input, bar, run.seconds.read);
-    command.options.memory_limit = memory_limit(command.run);  // what is left once the soup is in memory
-    opened.run(command.options, bar.callback());
-    return opened;
-  }();
+  bar.show("read");
+  const Stopwatch read_watch;
+  RenderMesh surface = read_surface(command, planned);
+  const TriangleSoup soup = surface.vertices.empty() ? read_input_soup(command.input) : triangles_of(surface);
+  run.seconds.read = read_watch.seconds();
+  Pipeline pipeline = open_pipeline(command.input, soup, bar);
+  command.options.memory_limit = memory_limit(command.run);  // what is left once the soup is in memory
+  pipeline.run(command.options, bar.callback());
   run.options = command.options;
   run.pipeline = &pipeline;
   take_stage_times(run);
@@ -145,6 +162,7 @@ void run_mesh(MeshCommand& command) {
     bar.show("measure");
     measure(run, command.json.has_value());
   }
+  run.model = make_model(run, command.model, std::move(surface), bar);
   bar.show("write");
   NewFiles files;
   write_meshes(command, planned, run, files);
@@ -172,13 +190,13 @@ void add_mesh_command(CLI::App& app) {
   mesh->group("Commands")->footer(kExamples);
   mesh->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb")->required()->option_text(" ");
   add_output_flags(*mesh, command->meshes);
-  add_up_flag(*mesh, command->model.up);
   add_grid_flags(*mesh, command->options.distance);
   add_volume_flags(*mesh, command->options.pseudo_volume);
   add_lattice_flags(*mesh, command->options.lattice);
   add_cover_flags(*mesh, command->options.lattice);
   add_topology_flags(*mesh, command->options.lattice.topology);
   add_smooth_flags(*mesh, command->options.smooth);
+  add_model_flags(*mesh, command->model);
   add_material_flags(*mesh, command->material);
   add_flag(
       *mesh, "--json", "FILE|-", [command](const std::string& text) { command->json = text; },

@@ -51,10 +51,23 @@ void check_input(const fs::path& path) {
     throw IoError(fmt::format("{}: cannot be read: {}; check its permissions", name, std::strerror(errno)));
 }
 
-TriangleSoup read_input_soup(const fs::path& path) {
+namespace {
+
+void refuse_tets(const fs::path& path) {
   if (is_tet_file(path))
     throw IoError(path.string() + ": this is a tet mesh already; `tetsoup inspect` shows its quality");
+}
+
+}  // namespace
+
+TriangleSoup read_input_soup(const fs::path& path) {
+  refuse_tets(path);
   return read_soup(path);
+}
+
+RenderMesh read_input_surface(const fs::path& path) {
+  refuse_tets(path);
+  return read_render_mesh(path);
 }
 
 void Outputs::add(std::string_view flag, const fs::path& path) {

@@ -19,6 +19,9 @@ void check_input(const std::filesystem::path& path);
 /// Reads a soup; a tet mesh is refused with a hint.
 TriangleSoup read_input_soup(const std::filesystem::path& path);
 
+/// The same with all that the file says about it.
+RenderMesh read_input_surface(const std::filesystem::path& path);
+
 /// All that one run will write.
 class Outputs {
  public:

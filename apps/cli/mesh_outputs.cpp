@@ -79,6 +79,10 @@ std::vector<PlannedMesh> plan_meshes(const WantedMeshes& wanted, Outputs& output
   return planned;
 }
 
+bool holds_surface(TetFormat format) {
+  return format == TetFormat::Usd || format == TetFormat::Npz || format == TetFormat::Json;
+}
+
 void write_planned(const PlannedMesh& planned, const TetModel& model, bool material_is_default, MeshRun& run) {
   const auto written = planned.engine ? write_for_engine(*planned.engine, planned.path, model, material_is_default)
                                       : write_tets(planned.path, model, planned.format);

@@ -10,6 +10,7 @@
 #include "tetsoup/pipeline.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/readiness.h"
+#include "tetsoup/tet_model.h"
 
 namespace tetsoup::cli {
 
@@ -34,6 +35,7 @@ struct MeshRun {
   BoundaryDistance raw_distance;       ///< and of the lattice's.
   double iou = 0;                      ///< Of the final mesh and the pseudo volume.
   Material material;
+  TetModel model;  ///< What is written.
   Readiness readiness;
   Timings seconds;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "angles.h"
+#include "mesh_model.h"
 #include "readiness_page.h"
 #include "report_json.h"
 
@@ -248,6 +249,7 @@ std::string describe_run(const MeshRun& run) {
   note_lattice(run, notes);
   note_faults(run.quality, notes);
   for (const std::string& note : notes) text += "Note: " + note + "\n";
+  text += describe_model(run.model);
   text += describe_readiness(run.readiness, run.material);
   text += describe_seconds(run.seconds);
   for (const auto& path : run.outputs) text += "Wrote " + path.string() + "\n";

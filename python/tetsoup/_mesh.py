@@ -132,11 +132,12 @@ class TetMesh:
         """Writes a file, whole or not at all: an existing one stays as it was if anything fails.
 
         Args:
-            path: its extension tells the format: .msh .vtk .vtu .mesh .node, or the boundary only: .obj .stl .ply.
+            path: its extension tells the format: .msh .vtk .vtu .mesh .node .tet .veg .inp .vol .npz .json .usda, or the
+                boundary only: .obj .stl .ply.
             format: instead, one of `tetsoup.formats()`.
 
         Returns:
-            The files written; two for TetGen.
+            The files written; three for TetGen.
 
         Raises:
             tetsoup.IoError: if it cannot be written, or the extension is unknown.

@@ -6,10 +6,13 @@ namespace tetsoup {
 namespace {
 
 constexpr double kBucketsPerTet = 2;
+/// A bucket's edge in edges of a tet: a point then has a dozen tets to ask.
+constexpr double kBucketShare = 0.375;
 /// Flat and empty meshes would have no end of buckets along their sides.
 constexpr double kMostBucketsPerTet = 16;
 
-double bucket_edge(const Vec3d& size, double largest_volume, double tet_count) {
+/// About the edge of the largest tet.
+double tet_edge_of(const Vec3d& size, double largest_volume, double tet_count) {
   double edge =
       std::max(std::cbrt(6 * largest_volume), std::cbrt(size.x * size.y * size.z / (kBucketsPerTet * tet_count + 1)));
   const double longest = std::max({size.x, size.y, size.z});
@@ -34,7 +37,8 @@ TetLocator::TetLocator(const TetMesh& mesh, double on_face) {
       hi = max(hi, q);
     }
   }
-  edge_ = bucket_edge(hi - lo, volume, static_cast<double>(mesh.tets.size()));
+  const double tet_edge = tet_edge_of(hi - lo, volume, static_cast<double>(mesh.tets.size()));
+  edge_ = tet_edge * kBucketShare;
   origin_ = lo;
   const auto last = bucket_of(hi);
   for (std::size_t i = 0; i < 3; ++i) count_[i] = last[i] + 1;
@@ -51,7 +55,7 @@ TetLocator::TetLocator(const TetMesh& mesh, double on_face) {
       const Vec3d a = p[static_cast<std::size_t>(face[0])];
       Vec3d n = cross(p[static_cast<std::size_t>(face[2])] - a, p[static_cast<std::size_t>(face[1])] - a);
       n = n * (1 / length(n));
-      planes_[t][i] = {n, -dot(n, a) + on_face * edge_};
+      planes_[t][i] = {n, -dot(n, a) + on_face * tet_edge};
     }
   }
   tets_ = Groups<std::uint32_t>(number_of({count_[0] - 1, count_[1] - 1, count_[2] - 1}) + 1, [&](const auto& put) {
@@ -72,12 +76,6 @@ std::array<int, 3> TetLocator::bucket_of(const Vec3d& point) const {
   const Vec3d p = (point - origin_) * (1 / edge_);
   const auto whole = [&](double x) { return floor_to_int(std::clamp(x, -kFar, kFar)); };
   return {whole(p.x), whole(p.y), whole(p.z)};
-}
-
-bool TetLocator::holds(std::uint32_t tet, const Vec3d& point) const {
-  for (const Plane& plane : planes_[tet])
-    if (dot(plane.normal, point) + plane.offset < 0) return false;
-  return true;
 }
 
 }  // namespace tetsoup

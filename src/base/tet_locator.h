@@ -12,7 +12,7 @@ namespace tetsoup {
 
 class TetLocator {
  public:
-  /// Edges of a bucket: single-precision vertices put a point on a face up to this far outside.
+  /// Edges of the largest tet: single-precision vertices put a point on a face up to this far outside.
   static constexpr double kOnFace = 1e-5;
 
   /// Indices are valid and vertices finite; tets that are flat or inverted hold nothing. O(tets).
@@ -27,10 +27,14 @@ class TetLocator {
     for (const std::uint32_t t : tets_[number_of(bucket)])
       if (holds(t, point)) visit(t);
   }
-  bool holds(std::uint32_t tet, const Vec3d& point) const;
+  bool holds(std::uint32_t tet, const Vec3d& point) const {
+    for (const Plane& plane : planes_[tet])
+      if (dot(plane.normal, point) + plane.offset < 0) return false;
+    return true;
+  }
 
  private:
-  /// Where dot(normal, p) + offset >= 0, in edges of a bucket.
+  /// Where dot(normal, p) + offset >= 0.
   struct Plane {
     Vec3d normal;
     double offset = 0;

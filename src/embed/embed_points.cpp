@@ -98,9 +98,14 @@ class Embedder {
 
   Embedding run() {
     watch_.enter_part(0, 0.7);
-    for_each_point([&](std::size_t i) { embedding_.tets[i] = find_tet(i); });
+    parallel_for(static_cast<std::int64_t>(soup_.vertices.size()), kGrain, watch_,
+                 [&](std::int64_t begin, std::int64_t end) {
+                   std::uint32_t near = 0;  // Neighbours in the file are neighbours in space, most often.
+                   for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+                     embedding_.tets[i] = find_tet(i, near);
+                 });
     if (needs_own_copies(mesh_, soup_, finder_, embedding_.tets, watch_))
-      embedding_.report.other_copy = move_to_own_copies(mesh_, soup_, finder_, embedding_.tets);
+      embedding_.report.other_copy = move_to_own_copies(mesh_, soup_, finder_, embedding_.tets, watch_);
     watch_.enter_part(0.7, 1);
     for_each_point([&](std::size_t i) { weigh(i); });
     count();
@@ -116,11 +121,11 @@ class Embedder {
                  });
   }
 
-  std::uint32_t find_tet(std::size_t i) const {
+  std::uint32_t find_tet(std::size_t i, std::uint32_t& near) const {
     if (!is_finite(soup_.vertices[i])) return 0;
     const Vec3d point = to_double(soup_.vertices[i]);
     const std::uint32_t holder = finder_.holder(point);
-    return holder != TetFinder::kNone ? holder : finder_.nearest(point);
+    return holder != TetFinder::kNone ? holder : finder_.nearest(point, near);
   }
 
   void weigh(std::size_t i) {

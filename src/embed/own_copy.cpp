@@ -36,24 +36,25 @@ std::vector<Triangle> usable_triangles(const TriangleSoup& soup) {
 /// Nodes are the soup's distinct positions.
 class OwnCopies {
  public:
-  OwnCopies(const TetMesh& mesh, const TriangleSoup& soup, const TetFinder& finder, std::vector<std::uint32_t>& tets)
+  OwnCopies(const TetMesh& mesh, const TriangleSoup& soup, const TetFinder& finder, std::vector<std::uint32_t>& tets,
+            StageWatch& watch)
       : mesh_(mesh), finder_(finder), walk_(mesh), point_tets_(tets), triangles_(usable_triangles(soup)) {
     merged_ = merge_vertices(soup.vertices, triangles_);
     const std::size_t count = merged_.positions.size();
     tets_.resize(count);
     for (std::size_t i = 0; i < tets.size(); ++i)
       if (merged_.names[i] != MergedVertices::kUnused) tets_[merged_.names[i]] = tets[i];
-    neighbours_ = Groups<std::uint32_t>(count, [&](const auto& put) {
-      for (const auto& [a, b, c] : triangles_) {
-        put(a, b), put(b, c), put(c, a);
-        put(b, a), put(c, b), put(a, c);
-      }
-    });
     settled_.resize(count);
-    for (std::uint32_t v = 0; v < count; ++v) {
-      settled_[v] = !finder.is_in_several(place(v));
-      encloses_ = encloses_ && finder.holds(tets_[v], place(v));
-    }
+    const auto left =
+        parallel_sum<int>(static_cast<std::int64_t>(count), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
+          int outside = 0;
+          for (auto v = static_cast<std::uint32_t>(begin); v < static_cast<std::uint32_t>(end); ++v) {
+            settled_[v] = !finder.is_in_several(place(v));
+            outside += !finder.holds(tets_[v], place(v));
+          }
+          return outside;
+        });
+    encloses_ = left == 0;
   }
 
   std::size_t run() {
@@ -74,9 +75,7 @@ class OwnCopies {
 
   template <class Visit>
   void for_each_edge(const Visit& visit) const {
-    for (std::uint32_t a = 0; a < neighbours_.size(); ++a)
-      for (const std::uint32_t b : neighbours_[a])
-        if (a < b) visit(a, b);
+    for (const auto& [a, b, c] : triangles_) visit(a, b), visit(b, c), visit(c, a);
   }
 
   void unsettle_guests() {
@@ -115,9 +114,15 @@ class OwnCopies {
 
   /// From the settled nodes to the others, breadth first; what nothing reaches starts anew where it is.
   void spread() {
+    neighbours_ = Groups<std::uint32_t>(tets_.size(), [&](const auto& put) {
+      for_each_edge([&](std::uint32_t a, std::uint32_t b) {
+        if (settled_[b] == 0) put(a, b);
+        if (settled_[a] == 0) put(b, a);
+      });
+    });
     std::vector<std::uint32_t> queue;
     for (std::uint32_t v = 0; v < settled_.size(); ++v)
-      if (settled_[v] != 0) queue.push_back(v);
+      if (settled_[v] != 0 && !neighbours_[v].empty()) queue.push_back(v);
     std::size_t next = 0;
     for (std::uint32_t start = 0;; ++start) {
       for (; next < queue.size(); ++next) settle_neighbours(queue[next], queue);
@@ -150,8 +155,8 @@ class OwnCopies {
   std::vector<std::uint32_t>& point_tets_;
   std::vector<Triangle> triangles_;
   MergedVertices merged_;
-  std::vector<std::uint32_t> tets_;  ///< Of every node.
-  Groups<std::uint32_t> neighbours_;
+  std::vector<std::uint32_t> tets_;   ///< Of every node.
+  Groups<std::uint32_t> neighbours_;  ///< Of every node, those that are to be settled.
   std::vector<std::uint8_t> settled_;
 };
 
@@ -208,8 +213,8 @@ bool needs_own_copies(const TetMesh& mesh, const TriangleSoup& soup, const TetFi
 }
 
 std::size_t move_to_own_copies(const TetMesh& mesh, const TriangleSoup& soup, const TetFinder& finder,
-                               std::vector<std::uint32_t>& tets) {
-  return OwnCopies(mesh, soup, finder, tets).run();
+                               std::vector<std::uint32_t>& tets, StageWatch& watch) {
+  return OwnCopies(mesh, soup, finder, tets, watch).run();
 }
 
 }  // namespace tetsoup

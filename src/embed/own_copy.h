@@ -22,6 +22,6 @@ bool needs_own_copies(const TetMesh& mesh, const TriangleSoup& soup, const TetFi
 /// @return  Points whose tet has changed.
 /// Cost: O(triangles + long edges x tets along them).
 std::size_t move_to_own_copies(const TetMesh& mesh, const TriangleSoup& soup, const TetFinder& finder,
-                               std::vector<std::uint32_t>& tets);
+                               std::vector<std::uint32_t>& tets, StageWatch& watch);
 
 }  // namespace tetsoup

@@ -1,6 +1,7 @@
 #include "embed/tet_finder.h"
 
-#include <numeric>
+#include <algorithm>
+#include <cmath>
 
 #include "base/tet_faces.h"
 
@@ -39,7 +40,17 @@ TetFinder::TetFinder(const TetMesh& mesh, StageWatch& watch)
       locator_(mesh, kOnFace),
       slots_(surface_slots(mesh)),
       boundary_(surface_of(mesh, slots_)),
-      boxes_(boundary_, watch) {}
+      boxes_(boundary_, watch) {
+  faces_.reserve(slots_.size());
+  for (std::uint32_t t = 0; t < slots_.size(); ++t) {
+    Face face{boxes_.corners_in_unit(t), {}, 0};
+    const auto& [a, b, c] = face.corners;
+    face.centre = (a + b + c) * (1.0 / 3);
+    face.radius = std::sqrt(
+        std::max({squared_length(a - face.centre), squared_length(b - face.centre), squared_length(c - face.centre)}));
+    faces_.push_back(face);
+  }
+}
 
 std::uint32_t TetFinder::holder(const Vec3d& point) const {
   std::uint32_t first = kNone;
@@ -55,24 +66,35 @@ bool TetFinder::is_in_several(const Vec3d& point) const {
   return count > 1;
 }
 
-std::uint32_t TetFinder::nearest(const Vec3d& point) const {
-  std::uint32_t best = kNone;
-  double square = std::numeric_limits<double>::infinity(), least = 0;
-  std::uint32_t triangle = 0;
-  float bound = std::numeric_limits<float>::infinity();
+std::uint32_t TetFinder::nearest(const Vec3d& point, std::uint32_t& near) const {
   const Vec3d p = boxes_.to_unit(point);
-  boxes_.visit_near(to_float(p), bound, [&](std::uint32_t t) {
-    const double to_t = squared_length(p - closest_on_triangle(boxes_.corners_in_unit(t), p));
-    if (!(to_t <= square * (1 + kSameDistance))) return;
-    const auto tet = static_cast<std::uint32_t>(slots_[t] / 4);
-    const double least_t = least_weight(corners_of(mesh_, mesh_.tets[tet]), point);
-    const bool is_nearer = to_t < square * (1 - kSameDistance);
-    if (!is_nearer && (least_t < least || (least_t == least && t > triangle))) return;
-    best = tet;
-    square = to_t, least = least_t, triangle = t;
+  const auto square_to = [&](std::uint32_t t) { return squared_length(p - closest_on_triangle(faces_[t].corners, p)); };
+  const auto tet_of = [&](std::uint32_t t) { return static_cast<std::uint32_t>(slots_[t] / 4); };
+  const auto least = [&](std::uint32_t t) { return least_weight(corners_of(mesh_, mesh_.tets[tet_of(t)]), point); };
+  std::uint32_t best = near;
+  double square = square_to(near);
+  double within = 0;
+  float bound = 0;
+  const auto take = [&](std::uint32_t t, double to_t) {
+    best = t;
+    square = to_t;
+    within = std::sqrt(to_t) * (1 + kSameDistance);
     bound = TriangleBoxes::bound_above(square * (1 + 2 * kSameDistance));
+  };
+  take(near, square);
+  boxes_.visit_near(to_float(p), bound, [&](std::uint32_t t) {
+    const double reach = faces_[t].radius + within;
+    if (squared_length(p - faces_[t].centre) > reach * reach) return;
+    const double to_t = square_to(t);
+    if (t == best || !(to_t <= square * (1 + kSameDistance))) return;
+    if (to_t >= square * (1 - kSameDistance)) {
+      const double of_t = least(t), of_best = least(best);
+      if (of_t < of_best || (of_t == of_best && t > best)) return;
+    }
+    take(t, std::min(square, to_t));
   });
-  return best;
+  near = best;
+  return tet_of(best);
 }
 
 }  // namespace tetsoup

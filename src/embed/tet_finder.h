@@ -25,8 +25,8 @@ class TetFinder {
   /// Whether the point lies well inside of two tets, as it does where there are copies.
   bool is_in_several(const Vec3d& point) const;
   /// The tet of the nearest boundary triangle; of equally near ones that which the point is least far beyond, then the
-  /// first.
-  std::uint32_t nearest(const Vec3d& point) const;
+  /// first. `near` is a triangle to begin with, 0 at first, and becomes the nearest.
+  std::uint32_t nearest(const Vec3d& point, std::uint32_t& near) const;
 
  private:
   const TetMesh& mesh_;
@@ -34,6 +34,13 @@ class TetFinder {
   std::vector<std::uint64_t> slots_;  ///< Of the boundary's triangles.
   TriangleSoup boundary_;
   TriangleBoxes boxes_;
+  /// A boundary triangle in the unit of the boxes.
+  struct Face {
+    std::array<Vec3d, 3> corners;
+    Vec3d centre;
+    double radius = 0;  ///< Of a ball around the centre.
+  };
+  std::vector<Face> faces_;
 };
 
 }  // namespace tetsoup

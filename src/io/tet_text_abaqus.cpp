@@ -1,5 +1,7 @@
 // The part of an input deck that describes a body, for Abaqus and CalculiX: what is left to add is a step.
 #include <array>
+#include <concepts>
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -18,10 +20,20 @@ constexpr std::size_t kPerLine = 8;  // Of 16 that both take.
 // Their names of the faces opposite our vertices: S1 is 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1.
 constexpr std::array<const char*, 4> kFaceNames{", S3\n", ", S4\n", ", S2\n", ", S1\n"};
 
+// Neither reads more of a number, an exponent that stands behind that included.
+constexpr std::size_t kFieldWidth = 20;
+
+void append_field(std::string& text, double value) {
+  append_number_within(text, value, kFieldWidth);
+}
+void append_field(std::string& text, std::integral auto value) {
+  append_number(text, value);
+}
+
 template <class First, class... Rest>
 void append_row(std::string& text, First first, Rest... rest) {
-  append_number(text, first);
-  ((text += ", ", append_number(text, rest)), ...);
+  append_field(text, first);
+  ((text += ", ", append_field(text, rest)), ...);
   text += '\n';
 }
 
@@ -63,7 +75,7 @@ std::string abaqus_text(const TetModel& model) {
   text += "** tetsoup\n*NODE, NSET=NALL\n";
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3& v = mesh.vertices[i];
-    append_row(text, i + 1, v.x, v.y, v.z);
+    append_row(text, i + 1, double{v.x}, double{v.y}, double{v.z});
   }
   const auto lists = tets_by_region(model);
   for (std::size_t r = 0; r < lists.size(); ++r)

@@ -118,6 +118,12 @@ std::string json_text(const TetModel& model) {
   append_regions(text += next, model);
   append_array(text += next, "tet_regions", model.tet_regions);
   append_pins(text += next, model);
+  if (!model.render.face_sizes.empty()) {
+    append_key(text += next, "render");
+    append_array(text += "{\n", "vertices", model.render.vertices);
+    append_array(text += next, "triangles", triangles_of(model.render).triangles);
+    text += '}';
+  }
   if (!model.embedding.tets.empty()) {
     append_key(text += next, "embedding");
     append_array(text += "{\n", "tets", model.embedding.tets);
