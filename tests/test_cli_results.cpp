@@ -154,6 +154,19 @@ TEST_F(Tool, inspects_a_soup) {
   EXPECT_NE(outcome.err.find("closed surface"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Tool, inspect_lists_the_names_of_parts) {
+  write_text(in_folder("named.obj"),
+             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no my body\nusemtl red\x1b[1m\nf 1 2 3 4\ng lid\nf 1 2 4\n");
+  const Outcome outcome = run({"inspect", "named.obj", "--json", "-"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(
+      Json::parse(outcome.out).at("parts").dump(),
+      R"([{"kind":"object","name":"my body","triangle_count":3},{"kind":"group","name":"lid","triangle_count":1},)"
+      R"({"kind":"material","name":"red\u001b[1m","triangle_count":3}])");
+  EXPECT_NE(outcome.err.find("triangles of object                  3  'my body'\n"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("'red?[1m'"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Tool, inspects_a_tet_mesh_that_it_wrote) {
   ASSERT_EQ(mesh_cube({"--json", "cube.json", "-q"}).exit_code, 0);
   const Outcome outcome = run({"inspect", "cube.msh", "--json", "quality.json"});

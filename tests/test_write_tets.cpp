@@ -122,7 +122,6 @@ TEST_F(WriteTetsTest, if_one_of_tetgens_files_cannot_be_written_the_others_stay_
 
 TEST_F(WriteTetsTest, every_format_reports_a_full_disk_and_a_missing_folder) {
   for (const TetFormatInfo& info : tet_formats()) {
-    if (info.format == TetFormat::Usd) continue;
     EXPECT_THROW(write_tets(folder_ / "none" / ("m" + info.extension), few_tets(), info.format), IoError) << info.name;
     if (info.format == TetFormat::Tetgen || info.format == TetFormat::Surface || !fs::exists("/dev/full")) continue;
     EXPECT_THROW(write_tets("/dev/full", few_tets(), info.format), IoError) << info.name;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "files.h"
+#include "report_json.h"
 #include "summary.h"
 #include "tetsoup/error.h"
 
@@ -23,10 +24,6 @@ const std::string& name_of(const RenderMesh::Part& part, PartKind kind) {
   return kind == PartKind::Object ? part.object : kind == PartKind::Group ? part.group : part.material;
 }
 
-const char* word_for(PartKind kind) {
-  return kind == PartKind::Object ? "object" : kind == PartKind::Group ? "group" : "material";
-}
-
 /// " (objects: a, b; materials: c)", as far as a line holds them.
 std::string known_names(const RenderMesh& surface) {
   constexpr std::size_t kMost = 12;
@@ -34,7 +31,7 @@ std::string known_names(const RenderMesh& surface) {
   if (names.empty()) return "; the model names no objects, groups or materials";
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
-    text += fmt::format("{} {} '{}'", i == 0 ? "; it has" : ",", word_for(names[i].kind), names[i].name);
+    text += fmt::format("{} {} '{}'", i == 0 ? "; it has" : ",", kind_name(names[i].kind), names[i].name);
   return names.size() > kMost ? text + fmt::format(" and {} more: tetsoup inspect", names.size() - kMost) : text;
 }
 
@@ -123,7 +120,7 @@ void check_names(const ModelOptions& options, const RenderMesh& surface) {
     const std::vector<PartName> names = part_names(surface);
     if (std::none_of(names.begin(), names.end(),
                      [&](const PartName& part) { return part.kind == *options.regions_by && part.name == wish.name; }))
-      throw InvalidInput(fmt::format("--region: the model has no {} '{}'{}", word_for(*options.regions_by), wish.name,
+      throw InvalidInput(fmt::format("--region: the model has no {} '{}'{}", kind_name(*options.regions_by), wish.name,
                                      known_names(surface)));
   }
   for (const PinWish& pin : options.pins)

@@ -306,8 +306,15 @@ std::string mesh_report_json(const MeshRun& run) {
                   {"readiness", readiness_json(run.readiness, run.material)}});
 }
 
-std::string soup_report_json(const std::string& input, const SoupReport& report) {
-  return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"soup", soup_json(report)}});
+std::string soup_report_json(const std::string& input, const SoupReport& report, const std::vector<PartName>& parts) {
+  Json list = Json::array();
+  for (const PartName& part : parts)
+    list.push_back({{"kind", kind_name(part.kind)}, {"name", part.name}, {"triangle_count", part.triangle_count}});
+  return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"soup", soup_json(report)}, {"parts", list}});
+}
+
+const char* kind_name(PartKind kind) {
+  return kind == PartKind::Object ? "object" : kind == PartKind::Group ? "group" : "material";
 }
 
 std::string tets_report_json(const std::string& input, const Quality& quality, const Readiness& readiness,

@@ -78,7 +78,7 @@ def read(path: str | os.PathLike[str]) -> Soup:
 
 
 def read_tets(path: str | os.PathLike[str]) -> TetMesh:
-    """Reads a tet mesh: .msh .vtk .vtu .mesh .node.
+    """Reads a tet mesh: .msh .vtk .vtu .mesh .npz .node.
 
     Raises:
         tetsoup.IoError: if the file cannot be read or is damaged.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/tet_geometry.h"
+#include "io/raw_numbers.h"
 #include "io/tet_writers.h"
 #include "tetsoup/quality.h"
 
@@ -21,6 +22,13 @@ namespace {
 std::string number(double value) {
   std::string text;
   append_number(text, value);
+  return text;
+}
+
+/// For attributes that hold floats.
+std::string real(double value) {
+  std::string text;
+  append_float(text, narrow(value));
   return text;
 }
 
@@ -58,18 +66,13 @@ void write_material(UsdaWriter& usd, const std::string& name, const Material& ma
       {usda_schemas({"PhysicsMaterialAPI", "PhysicsVolumeDeformableMaterialAPI", "OmniPhysicsDeformableMaterialAPI"})});
   for (const char* family : {"physics", "omniphysics"}) {
     const std::string prefix = std::string("float ") + family + ':';
-    usd.line(prefix + "density", number(material.density));
-    usd.line(prefix + "youngsModulus", number(material.young));
-    usd.line(prefix + "poissonsRatio", number(material.poisson));
+    usd.line(prefix + "density", real(material.density));
+    usd.line(prefix + "youngsModulus", real(material.young));
+    usd.line(prefix + "poissonsRatio", real(material.poisson));
   }
   usd.close();
 }
 
-std::vector<std::array<std::uint32_t, 3>> surface_faces(const TetMesh& mesh) {
-  return boundary_triangles(mesh);
-}
-
-/// `region_materials`: paths, as many as regions; none if there is but one.
 void write_subsets(UsdaWriter& usd, const TetModel& model) {
   LegalNames names;
   if (has_regions(model)) {
@@ -99,7 +102,7 @@ void write_tet_mesh(UsdaWriter& usd, const TetModel& model, const std::string& m
   if (has_render_mesh(model)) usd.line("uniform token purpose", "\"guide\"");
   if (has_regions(model)) usd.line("uniform token subsetFamily:region:familyType", "\"partition\"");
   if (!model.pins.empty()) usd.line("uniform token subsetFamily:pin:familyType", "\"unrestricted\"");
-  usd.array("int3[] surfaceFaceVertexIndices", surface_faces(mesh));
+  usd.array("int3[] surfaceFaceVertexIndices", boundary_triangles(mesh));
   usd.array("int4[] tetVertexIndices", mesh.tets);
   write_subsets(usd, model);
   usd.close();
