@@ -89,8 +89,8 @@ TEST_F(ModelTool, pins_by_box_plane_and_part_are_written_and_counted) {
   EXPECT_TRUE(pins.at("below_2").empty());
   EXPECT_NE(outcome.out.find("Note: 'below_2' holds nothing"), std::string::npos) << outcome.out;
   const Json report = Json::parse(read_text(in_folder("report.json"))).at("pins");
-  EXPECT_EQ(report[1].at("name"), "box");
-  EXPECT_EQ(report[1].at("vertex_count"), pins.at("box").size());
+  EXPECT_EQ(report[0].at("name"), "box");
+  EXPECT_EQ(report[0].at("vertex_count"), pins.at("box").size());
 }
 
 TEST_F(ModelTool, the_embedding_has_a_row_for_every_vertex_of_the_file) {
