@@ -13,10 +13,6 @@ STAGES = [
     ("lattice and density, 3K tets", "lattice", {128: 10, 256: 40, 512: 250}),
     ("lattice with all that mends it, 3K tets", "lattice_mended", {}),
     ("smoothing at its defaults, 3K tets", "smooth", {128: 15}),
-    ("embed 1M vertices, half of them outside", "embed", {128: 300}),
-    ("embed 1M vertices, all enclosed", "embed_enclosed", {128: 300}),
-    ("move 1M embedded vertices", "deform_points", {128: None}),
-    ("move 1M normals", "deform_normals", {128: None}),
     ("**whole tool, file to file**", "tool", {64: 100, 128: 250, 256: 900, 512: 6000}),
 ]
 
@@ -28,6 +24,14 @@ SLIDERS = [
     ("smoothing", "slider_smoothing", 15),
 ]
 SLIDER_VOXELS = 128
+
+EMBEDDING = [
+    ("hang on the tets, half of them outside", "embed", 300),
+    ("hang on the tets, enclosed", "embed_enclosed", 300),
+    ("move points", "deform_points", None),
+    ("move normals", "deform_normals", None),
+]
+EMBEDDING_VOXELS = 128
 
 TOOL_TETS = {64: 5000}  # on other grids:
 DEFAULT_TETS = 3000
