@@ -21,7 +21,8 @@ constexpr double kGravity = 9.81;  // m/s^2
 // Young's modulus over the pressure that a column as high as the body has at its foot: it is shortened by half a
 // percent. What stands on thin legs needs that much. 1e5 Pa is that stiffness for a body of 0.1 m.
 constexpr double kStiffness = 100;
-constexpr double kDropShare = 0.05;  // Of the height, between body and plane.
+constexpr double kDropShare = 0.05;  // Of the height, between body and plane,
+constexpr double kMostDrop = 0.5;    // and at most so many metres, which take a third of a second.
 
 struct Extent {
   std::array<double, 3> low, high;
@@ -97,7 +98,7 @@ Drop plan_drop(const SceneInput& input, const StepLimit& limit) {
   drop.height = e.high[2] - e.low[2];
   drop.x = -(e.low[0] + e.high[0]) / 2;
   drop.y = -(e.low[1] + e.high[1]) / 2;
-  drop.lift = -e.low[2] + kDropShare * drop.height;
+  drop.lift = -e.low[2] + std::min(kDropShare * drop.height, kMostDrop);
   drop.mass = means.mass;
   drop.density = means.mass / means.volume;
   drop.poisson = means.poisson;
