@@ -6,6 +6,8 @@
 
 #include "base/parallel.h"
 #include "base/vec.h"
+#include "simulate/contact_constants.h"
+#include "simulate/part_pairs.h"
 #include "simulate/vertex_hash.h"
 #include "simulate/world.h"
 
@@ -13,38 +15,10 @@ namespace tetsoup::simulate {
 namespace {
 
 constexpr std::int64_t kGrain = 128;  ///< Tets or vertices a task.
-/// Vertices beyond a surface are looked for at most so many mean edges away: faster ones are found when they are in.
-constexpr double kMostAhead = 0.5;
 /// How far outside a tet's inner faces a vertex may lie, in its heights: edges of bodies stand on edges.
 constexpr double kSlack = 0.02;
-/// How far along a triangle's plane a contact holds, in mean edges.
-constexpr double kReach = 1;
-/// What lay within so many mean edges at rest is not kept apart: neighbours, and copies of tets in one place.
-constexpr double kNeighbours = 1;
-
-Vec3 place_of(const kernel::Place& p) {
-  return {p.x, p.y, p.z};
-}
-
-struct Bounds {
-  Vec3 lo{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
-          std::numeric_limits<float>::infinity()};
-  Vec3 hi{-lo.x, -lo.y, -lo.z};
-  float ahead = 0;  ///< How far a vertex of the part may get until contacts are searched for again.
-
-  void add(const Vec3& p) {
-    lo = min(lo, p);
-    hi = max(hi, p);
-  }
-  bool holds(const Vec3& p, float margin) const {
-    return p.x >= lo.x - margin && p.x <= hi.x + margin && p.y >= lo.y - margin && p.y <= hi.y + margin &&
-           p.z >= lo.z - margin && p.z <= hi.z + margin;
-  }
-  bool meets(const Bounds& other, float margin) const {
-    return lo.x - margin <= other.hi.x && hi.x + margin >= other.lo.x && lo.y - margin <= other.hi.y &&
-           hi.y + margin >= other.lo.y && lo.z - margin <= other.hi.z && hi.z + margin >= other.lo.z;
-  }
-};
+/// Edge of the cells that vertices are hashed by, in mean edges.
+constexpr double kCell = 0.8;
 
 /// A vertex in a tet, or just outside one of its faces on the surface.
 struct Hit {
@@ -55,10 +29,8 @@ struct Hit {
 
 class Search {
  public:
-  Search(World& world, double horizon) : world_(world), watch_(nobody_, "simulate") {
-    find_bounds(horizon);
-    find_partners();
-  }
+  Search(World& world, double horizon)
+      : world_(world), watch_(nobody_, "simulate"), pairs_(find_part_pairs(world, horizon, watch_)) {}
 
   void run() {
     before_ = std::move(world_.contacts.between);
@@ -73,43 +45,12 @@ class Search {
   const Part& part(std::size_t p) const { return world_.parts[p]; }
   const Rest& rest(std::size_t p) const { return world_.rest_of(part(p)); }
   const RestSurface& surface(std::size_t p) const { return world_.surfaces[part(p).surface]; }
-  Vec3 place(std::uint32_t slot) const { return place_of(world_.places[slot]); }
+  Vec3 place(std::uint32_t slot) const { return to_vec(world_.places[slot]); }
 
   template <class Body>
   void for_parts(const Body& body) {
     parallel_for(static_cast<std::int64_t>(world_.parts.size()), 1, watch_,
                  [&](std::int64_t p, std::int64_t) { body(static_cast<std::size_t>(p)); });
-  }
-
-  void find_bounds(double horizon) {
-    bounds_.resize(world_.parts.size());
-    const double gained = length(world_.options.gravity) * horizon;
-    for_parts([&](std::size_t p) {
-      double fastest = 0;
-      for (const std::uint32_t v : surface(p).vertices) {
-        bounds_[p].add(place(part(p).begin + v));
-        const kernel::Motion& m = world_.motions[part(p).begin + v];
-        fastest = std::max(fastest, squared_length({m.x, m.y, m.z}));
-      }
-      const double ahead = (std::sqrt(fastest) + gained) * horizon;
-      bounds_[p].ahead = static_cast<float>(std::min(ahead, kMostAhead * surface(p).mean_edge));
-    });
-  }
-
-  /// Which parts may meet, ascending; a part may meet itself.
-  void find_partners() {
-    const Contacts contacts = world_.options.contacts;
-    partners_.resize(world_.parts.size());
-    for (std::uint32_t p = 0; p < partners_.size(); ++p) {
-      for (std::uint32_t q = p + 1; q < partners_.size(); ++q) {
-        const bool between = contacts == Contacts::All || part(p).body != part(q).body;
-        if (!between || !bounds_[p].meets(bounds_[q], bounds_[p].ahead + bounds_[q].ahead)) continue;
-        partners_[p].push_back(q);
-        partners_[q].push_back(p);
-      }
-      if (contacts == Contacts::All) partners_[p].push_back(p);
-    }
-    for (auto& some : partners_) std::sort(some.begin(), some.end());
   }
 
   void touch_obstacles() {
@@ -126,7 +67,7 @@ class Search {
   std::optional<ObstacleContact> touch(const Obstacle& obstacle, std::size_t p, std::uint32_t slot) const {
     const Vec3d at = to_double(place(slot));
     const auto clearance = distance_from(obstacle, at);
-    if (!clearance || clearance->distance > static_cast<double>(bounds_[p].ahead)) return {};
+    if (!clearance || clearance->distance > static_cast<double>(pairs_.ahead[p])) return {};
     const double offset = dot(clearance->normal, at) - clearance->distance;
     return ObstacleContact{slot, to_float(clearance->normal), static_cast<float>(offset),
                            static_cast<float>(std::sqrt(obstacle.friction * rest(p).material.friction))};
@@ -145,11 +86,11 @@ class Search {
       vertices.insert(vertices.end(), found[p].begin(), found[p].end());
       edges += surface(p).mean_edge;
     }
-    return {vertices, edges / static_cast<double>(found.size())};
+    return {vertices, kCell * edges / static_cast<double>(found.size())};
   }
   bool may_meet(std::size_t p, const Vec3& at) const {
-    return std::any_of(partners_[p].begin(), partners_[p].end(),
-                       [&](std::uint32_t q) { return bounds_[q].holds(at, bounds_[p].ahead + bounds_[q].ahead); });
+    return std::any_of(pairs_.partners[p].begin(), pairs_.partners[p].end(),
+                       [&](const Partner& q) { return pairs_.bounds[q.part].holds(at, q.ahead); });
   }
 
   std::vector<Hit> find_hits() {
@@ -157,7 +98,7 @@ class Search {
     const VertexHash hash = hash_vertices();
     std::vector<std::size_t> first_task(world_.parts.size() + 1, 0);
     for (std::size_t p = 0; p < world_.parts.size(); ++p) {
-      const auto tets = static_cast<std::int64_t>(partners_[p].empty() ? 0 : rest(p).piece.tets.size());
+      const auto tets = static_cast<std::int64_t>(pairs_.partners[p].empty() ? 0 : rest(p).piece.tets.size());
       first_task[p + 1] = first_task[p] + static_cast<std::size_t>(chunk_count(tets, kGrain));
     }
     std::vector<std::vector<Hit>> found(first_task.back());
@@ -183,42 +124,40 @@ class Search {
       box.add(at);
       corners[i] = to_double(at);
     }
-    if (!(signed_volume(corners) > 0)) return;
-    if (!meets_partner(p, box)) return;
-    const float most = surface(p).open_faces[t] == 0 ? 0 : 2 * static_cast<float>(kMostAhead * surface(p).mean_edge);
-    const float margin = std::min(most, 2 * bounds_[p].ahead + fastest_partner(p));
+    const std::optional<float> ahead = most_ahead(p, box);
+    if (!ahead || !(signed_volume(corners) > 0)) return;
+    const float margin = surface(p).open_faces[t] == 0 ? 0 : *ahead;
     const Vec3 lo{box.lo.x - margin, box.lo.y - margin, box.lo.z - margin},
         hi{box.hi.x + margin, box.hi.y + margin, box.hi.z + margin};
     std::optional<std::array<Vec3d, 4>> gradients;
     hash.visit_box(lo, hi, [&](const HashedVertex& v) {
       if (!box.holds(v.place, margin) || is_of(p, v.slot, tet)) return;
+      const Partner* partner = pairs_.find(p, world_.owners[v.slot]);
+      if (partner == nullptr) return;
       if (!gradients) gradients = barycentric_gradients(corners);
-      if (auto hit = hit_of(v, p, t, corners[0], *gradients)) hits.push_back(*hit);
+      if (auto hit = hit_of(v, {static_cast<std::uint32_t>(p), partner->ahead}, t, corners[0], *gradients))
+        hits.push_back(*hit);
     });
   }
   bool is_of(std::size_t p, std::uint32_t slot, const Tet& tet) const {
     return std::any_of(tet.begin(), tet.end(), [&](std::uint32_t v) { return part(p).begin + v == slot; });
   }
-  bool meets_partner(std::size_t p, const Bounds& box) const {
-    return std::any_of(partners_[p].begin(), partners_[p].end(),
-                       [&](std::uint32_t q) { return box.meets(bounds_[q], bounds_[p].ahead + bounds_[q].ahead); });
-  }
-  float fastest_partner(std::size_t p) const {
-    float ahead = 0;
-    for (const std::uint32_t q : partners_[p]) ahead = std::max(ahead, bounds_[q].ahead);
-    return ahead;
+  /// Of the partners that the box meets; nothing if there is none.
+  std::optional<float> most_ahead(std::size_t p, const Bounds& box) const {
+    std::optional<float> most;
+    for (const Partner& q : pairs_.partners[p])
+      if (box.meets(pairs_.bounds[q.part], q.ahead)) most = std::max(most.value_or(0), q.ahead);
+    return most;
   }
 
-  std::optional<Hit> hit_of(const HashedVertex& v, std::size_t p, std::size_t t, const Vec3d& origin,
+  std::optional<Hit> hit_of(const HashedVertex& v, const Partner& p, std::size_t t, const Vec3d& origin,
                             const std::array<Vec3d, 4>& gradients) const {
-    const std::uint32_t q = world_.owners[v.slot];
-    if (!std::binary_search(partners_[p].begin(), partners_[p].end(), q)) return {};
-    const double ahead = static_cast<double>(bounds_[p].ahead + bounds_[q].ahead);
+    const auto ahead = static_cast<double>(p.ahead);
     const Vec3d from = to_double(v.place) - origin;
-    Hit hit{v.slot, static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(t), 1, {}};
+    Hit hit{v.slot, p.part, static_cast<std::uint32_t>(t), 1, {}};
     for (std::size_t i = 0; i < 4; ++i) {
       const double b = dot(gradients[i], from) + (i == 0 ? 1 : 0);
-      const bool open = (surface(p).open_faces[t] >> i & 1U) != 0;
+      const bool open = (surface(p.part).open_faces[t] >> i & 1U) != 0;
       if (b < (open ? -ahead * length(gradients[i]) : -kSlack)) return {};
       hit.weights[i] = static_cast<float>(b);
       hit.depth = std::min(hit.depth, hit.weights[i]);
@@ -287,8 +226,7 @@ class Search {
   World& world_;
   const Progress nobody_;
   StageWatch watch_;
-  std::vector<Bounds> bounds_;
-  std::vector<std::vector<std::uint32_t>> partners_;  ///< Of each part, ascending.
+  PartPairs pairs_;
   std::vector<Contact> before_;
 };
 

@@ -1,6 +1,7 @@
 #include "simulate/rest_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/tet_faces.h"
@@ -69,6 +70,9 @@ RestSurface make_rest_surface(const Piece& piece) {
     const Vec3d normal = cross(b - a, c - a);
     const double size = length(normal);
     surface.normals.push_back(size > 0 ? normal * (1 / size) : Vec3d{});
+    const Vec3d centre = (a + b + c) * (1.0 / 3);
+    surface.balls.push_back({centre, std::sqrt(std::max({squared_length(a - centre), squared_length(b - centre),
+                                                         squared_length(c - centre)}))});
   }
   surface.open_faces.assign(piece.tets.size(), 0);
   for (std::size_t begin = 0; begin < faces.size();) {
@@ -104,8 +108,11 @@ void find_near_triangles(RestSurface& surface, const Piece& piece, std::uint32_t
   // Distance is 1-Lipschitz: what is nearest somewhere in the ball is at most so much farther from its middle; what
   // faces some way counts up to a mean edge from the ball.
   const double farthest = std::max(least + 2 * radius, radius + surface.mean_edge);
+  std::vector<std::uint32_t>& near = surface.near[tet];
   for (std::uint32_t t = 0; t < distances.size(); ++t)
-    if (distances[t] <= farthest) surface.near[tet].push_back(t);
+    if (distances[t] <= farthest) near.push_back(t);
+  std::stable_sort(near.begin(), near.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return distances[a] < distances[b]; });
 }
 
 SurfacePoint nearest_surface_point(const RestSurface& surface, const Piece& piece, std::uint32_t tet, const Vec3d& p,
@@ -117,6 +124,10 @@ SurfacePoint nearest_surface_point(const RestSurface& surface, const Piece& piec
   for (const std::uint32_t t : surface.near[tet]) {
     if (facing && dot(surface.normals[t], *facing) < kSameSide) continue;
     const std::array<Vec3d, 3> corners = corners_of_triangle(surface, piece, t);
+    const double to_plane = dot(p - corners[0], surface.normals[t]);
+    if (to_plane * to_plane >= least) continue;
+    const double to_ball = length(p - surface.balls[t].centre) - surface.balls[t].radius;
+    if (to_ball > 0 && to_ball * to_ball >= least) continue;
     const Weights w = nearest_on_triangle(p, corners);
     const double distance = squared_length(at(corners, w) - p);
     if (!(distance < least)) continue;

@@ -10,9 +10,15 @@
 
 namespace tetsoup::simulate {
 
+struct Ball {
+  Vec3d centre;
+  double radius = 0;
+};
+
 struct RestSurface {
   std::vector<Triangle> triangles;               ///< Counter-clockwise from outside.
   std::vector<Vec3d> normals;                    ///< Of unit length; zero without an area.
+  std::vector<Ball> balls;                       ///< Around the triangles.
   std::vector<std::uint32_t> vertices;           ///< Of the triangles, ascending.
   std::vector<std::uint8_t> open_faces;          ///< Bit i of a tet: its face opposite corner i is on the surface.
   std::vector<std::vector<std::uint32_t>> near;  ///< Triangles that may be nearest to points of a tet, once asked for.
