@@ -16,7 +16,7 @@ namespace tetsoup {
 
 /// What a body is made of.
 struct SimMaterial {
-  Material elastic;
+  Material elastic{};
   /// s, >= 0: stress grows by this much of what the rate of strain would add in a second [Kelvin and Voigt]. Motion of
   /// angular frequency w dies with w^2 / 2 of it; that of a rigid body never does.
   double damping_time = 0.002;
@@ -25,11 +25,11 @@ struct SimMaterial {
 
 /// Where a body is placed and how it moves there: scaled, turned about x, then y, then z, and shifted.
 struct Pose {
-  Vec3d translate;
-  Vec3d rotate;      ///< Radians.
+  Vec3d translate{};
+  Vec3d rotate{};    ///< Radians.
   double scale = 1;  ///< > 0.
-  Vec3d velocity;    ///< m/s.
-  Vec3d spin;        ///< rad/s, about the body's centre of mass.
+  Vec3d velocity{};  ///< m/s.
+  Vec3d spin{};      ///< rad/s, about the body's centre of mass.
 };
 
 enum class Solver {

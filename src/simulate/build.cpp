@@ -60,10 +60,10 @@ void check_reach(const Make& m, const Pose& pose) {
   require(speed <= kMaxSpeed, "speed of a vertex", speed, "at most 1e4 m/s");
 }
 
-void add_part(World& world, std::size_t which, const Pose& pose, const Vec3d& centre) {
+void add_part(World& world, std::size_t which, std::size_t surface, const Pose& pose, const Vec3d& centre) {
   const Rest& rest = world.rests[which];
   const Quaternion rotation = rotation_of(pose.rotate);
-  Part part{which, which, world.bodies.size() - 1, static_cast<std::uint32_t>(world.places.size()), 0, 0, {}};
+  Part part{which, surface, world.bodies.size() - 1, static_cast<std::uint32_t>(world.places.size()), 0, 0, {}};
   // Tets know how they are turned from the start.
   kernel::TetRotations turned{};
   for (int lane = 0; lane < kernel::kTetLanes; ++lane) {
@@ -85,8 +85,8 @@ void add_part(World& world, std::size_t which, const Pose& pose, const Vec3d& ce
   world.parts.push_back(std::move(part));
 }
 
-void add_body(World& world, const TetMesh& mesh, const Pose& pose, double scale, const Make& m,
-              std::size_t first_rest) {
+void add_body(World& world, const TetMesh& mesh, const Pose& pose, double scale, const Make& m, std::size_t first_rest,
+              std::size_t first_surface) {
   Body& body = world.bodies.emplace_back();
   body.first_part = world.parts.size();
   body.part_count = m.rests.size();
@@ -97,7 +97,7 @@ void add_body(World& world, const TetMesh& mesh, const Pose& pose, double scale,
     const Vec3d at = to_double(v) * scale;
     body.positions.push_back(to_float((std::isfinite(dot(at, at)) ? rotation.turned(at) : Vec3d{}) + pose.translate));
   }
-  for (std::size_t r = 0; r < m.rests.size(); ++r) add_part(world, first_rest + r, pose, m.centre);
+  for (std::size_t r = 0; r < m.rests.size(); ++r) add_part(world, first_rest + r, first_surface + r, pose, m.centre);
   for (const std::uint32_t slot : body.slots) world.report.loose_vertices += slot == kNoSlot ? 1 : 0;
   world.report.tet_count += m.tet_count;
   world.report.left_out += mesh.tets.size() - m.tet_count;
@@ -121,16 +121,17 @@ void add_bodies(World& world, const TetMesh& mesh, const SimMaterial& material, 
     check_reach(makes.back(), poses[i]);
   }
   auto m = makes.begin();
-  std::size_t first_rest = 0;
+  std::size_t first_rest = 0, first_surface = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i == 0 || poses[i].scale != poses[i - 1].scale) {
       if (i > 0) ++m;
       first_rest = world.rests.size();
+      first_surface = world.surfaces.size();
       append(world.rests, m->rests);
       append(world.surfaces, m->surfaces);
       append(world.nets, m->nets);
     }
-    add_body(world, mesh, poses[i], poses[i].scale * material.elastic.metres_per_unit, *m, first_rest);
+    add_body(world, mesh, poses[i], poses[i].scale * material.elastic.metres_per_unit, *m, first_rest, first_surface);
   }
   world.start = world.places;
 }
