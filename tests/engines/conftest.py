@@ -39,7 +39,7 @@ def write(tmp_path_factory):
             subprocess.run(
                 [TOOL, "mesh", source_of(body), "-o", target, "--for", engine, "--tets", str(tets), "--up", body.up,
                  "--metres-per-unit", str(body.metres_per_unit), "--json", report, "--quiet"], check=True)
-            made[key] = Written(body, tets, json.loads(report.read_text()), target.parent)
+            made[key] = Written(body, tets, json.loads(report.read_text()), target.parent, source_of(body))
         return made[key]
 
     return write_once
