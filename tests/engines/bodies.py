@@ -31,7 +31,7 @@ class Written:
     tets: int
     report: dict
     folder: pathlib.Path
-    source: pathlib.Path = None
+    source: pathlib.Path
 
     def path(self, ending):
         return self.folder / f"{self.body.name}_{self.tets}{ending}"

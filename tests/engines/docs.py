@@ -1,4 +1,4 @@
-"""Writes what was proven (rows that the fixture `prove` kept) into the table of docs/ENGINES.md."""
+"""Writes the table of docs/ENGINES.md, between its two marks, from what the suite kept: python docs.py RESULTS PAGE"""
 import collections
 import datetime
 import importlib.metadata
@@ -6,70 +6,53 @@ import json
 import pathlib
 import shutil
 import subprocess
+import sys
 
-from conftest import RESULTS, ROOT
+from bodies import BODIES, SIZES
+from drops import ENDINGS, SHORTCOMINGS
 
-PAGE = ROOT / "docs/ENGINES.md"
-BEGIN, END = "<!-- engines:table -->", "<!-- engines:table end -->"
-
-# The package that read each preset; presets without one were read by the checkers of this suite.
 PACKAGES = {
-    "abaqus": "meshio", "blender": "trimesh", "bullet": "pybullet", "calculix": "ccx", "drake": "drake", "gmsh": "gmsh",
-    "isaac": "usd-core", "mmg": "meshio", "mujoco": "mujoco", "netgen": "netgen-mesher", "newton": "newton",
-    "paraview": "pyvista", "tetgen": "meshio", "usd": "usd-core"}
-# Readers of the format that are not the engine: its rules stay unproven by itself.
-STRANGERS = {"abaqus", "blender", "isaac", "mmg", "tetgen"}
+    "abaqus": "meshio", "blender": "trimesh", "bullet": "pybullet", "drake": "drake", "gmsh": "gmsh", "isaac": "usd-core",
+    "mmg": "meshio", "mujoco": "mujoco", "netgen": "netgen-mesher", "newton": "newton", "paraview": "pyvista",
+    "tetgen": "meshio", "usd": "usd-core"}
+BEGIN, END = "<!-- table: written by scripts/test_engines --docs -->", "<!-- end of table -->"
 
 
-def version_of(package):
-    if package != "ccx":
-        return importlib.metadata.version(package)
-    path = shutil.which("ccx")
-    return subprocess.run([path, "-v"], capture_output=True, text=True).stdout.split()[-1] if path else ""
-
-
-def proven_by(engine, rows):
-    kinds = {row["what"] for row in rows}
+def version_of(engine):
+    if engine == "calculix":
+        ccx = shutil.which("ccx")
+        return "ccx " + subprocess.run([ccx, "-v"], capture_output=True, text=True).stdout.split()[-1] if ccx else "–"
     package = PACKAGES.get(engine)
-    words = []
-    if "load" in kinds:
-        words.append("loads, counts, volume" if package else "rules only")
-    if engine in STRANGERS:
-        words.append("not by the engine itself")
-    if "rest" in kinds:
-        words.append("falls and rests")
-    elif "drop" in kinds:
-        words.append("falls")
-    return ", ".join(words)
+    return f"{package} {importlib.metadata.version(package)}" if package else "none: rules checked only"
 
 
-def table_of(results, date):
-    lines = ["| `--for` | read by | date | proven | bodies |", "|---|---|---|---|---|"]
-    for engine in sorted(results):
-        rows = results[engine]
-        package = PACKAGES.get(engine)
-        reader = f"{package} {version_of(package)}" if package else "-"
-        bodies = len({(row["body"], row["tets"]) for row in rows if row["what"] == "load"})
-        lines.append(f"| `{engine}` | {reader} | {date} | {proven_by(engine, rows)} | {bodies} |")
-    return "\n".join(lines)
-
-
-def main():
-    results = collections.defaultdict(list)
-    for path in sorted(pathlib.Path(RESULTS).glob("*.jsonl")):
-        for line in path.read_text().splitlines():
-            row = json.loads(line)
-            if row["what"] in ("load", "drop", "rest"):
-                results[row["engine"]].append(row)
-    if not results:
-        raise SystemExit(f"{RESULTS} holds no results: nothing was proven")
-    text = PAGE.read_text()
-    if text.count(BEGIN) != 1 or text.count(END) != 1:
-        raise SystemExit(f"{PAGE}: must hold {BEGIN} and {END} once each")
-    head, rest = text.split(BEGIN)
-    tail = rest.split(END)[1]
-    PAGE.write_text(f"{head}{BEGIN}\n{table_of(results, datetime.date.today())}\n{END}{tail}")
+def table(rows):
+    proven = collections.defaultdict(lambda: collections.defaultdict(dict))
+    for row in rows:
+        proven[row["engine"]][row["what"]][row["body"], row["tets"]] = row
+    total = len(BODIES) * len(SIZES)
+    text = ["| `--for` | read by | counts and volume | a second's fall ends near rest | seconds simulated a second, 500 / 2,000 tets |",
+            "|---|---|---|---|---|"]
+    for engine in sorted(proven):
+        kept = proven[engine]
+        loaded, rest = len(kept["load"]), len(kept["rest"])
+        fall = speed = "–"
+        if engine in ENDINGS:
+            fall = f"{rest} of {total}"
+            rates = []
+            for size in SIZES:
+                seconds = sorted(row["seconds"] for (_, tets), row in kept["drop"].items() if tets == size)
+                rates.append(f"{1 / seconds[len(seconds) // 2]:.2g}" if seconds else "–")
+            speed = " / ".join(rates)
+        text.append(f"| `{engine}` | {version_of(engine)} | {loaded} of {total} | {fall} | {speed} |")
+    text += ["", f"{datetime.date.today():%d %B %Y}; bodies: {', '.join(BODIES)}, each of {SIZES[0]} and {SIZES[1]:,} tets. Not taken:", ""]
+    for (engine, body, tets), reason in SHORTCOMINGS.items():
+        text.append(f"- `{engine}`, {body} of {tets:,} tets: {reason}.")
+    return "\n".join(text)
 
 
 if __name__ == "__main__":
-    main()
+    results, page = map(pathlib.Path, sys.argv[1:])
+    rows = [json.loads(line) for file in sorted(results.glob("*.jsonl")) for line in file.read_text().splitlines()]
+    before, rest = page.read_text().split(BEGIN)
+    page.write_text(before + BEGIN + "\n\n" + table(rows) + "\n\n" + END + rest.split(END)[1])

@@ -37,6 +37,15 @@ def run_mujoco(path):
     return start, data.flexvert_xpos.copy(), (data.flexvert_xpos - before) / model.opt.timestep
 
 
+# What engines do not take, each seen in a run. A strict mark: the day one of them works, its test says so.
+SHORTCOMINGS = {
+    ("bullet", "pr2", 500): "loadSoftBody() does not return for a body of several pieces",
+    ("bullet", "pr2", 2000): "loadSoftBody() does not return for a body of several pieces",
+    ("bullet", "bunny", 2000): "loses 13 % of its volume: the default step bears only a softness at which it sags by half",
+    ("drake", "pr2", 500): "the contact solver's factorization fails",
+}
+HANGS = {("bullet", "pr2")}
+
 ENDINGS = {"mujoco": ".xml", "newton": "_newton.py", "bullet": "_pybullet.py", "drake": "_drake.py"}
 
 
@@ -55,7 +64,7 @@ def judge(start, end, velocities, tets):
     swelling = volumes_of(end, tets).sum() / volumes_of(start, tets).sum() - 1
     low = end[:, 2].min() / height
     numbers = dict(energy=energy, swelling=swelling, low=low, sunk=1 - numpy.ptp(end[:, 2]) / height)
-    return numbers
+    return {name: float(number) for name, number in numbers.items()}
 
 
 def assert_near_rest(numbers):
