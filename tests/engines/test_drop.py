@@ -14,7 +14,7 @@ def cases():
             yield pytest.param(engine, body, tets, marks=mark)
 
 
-@pytest.mark.parametrize("engine,body,tets", cases())
+@pytest.mark.parametrize("engine,body,tets", list(cases()))
 def test_a_body_falls_and_comes_to_rest(engine, body, tets, write, prove, capfd):
     written = write(engine, body, tets)
     _, cells = READERS[engine](written)
