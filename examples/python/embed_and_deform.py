@@ -12,22 +12,22 @@ import tetsoup
 
 
 def main(soup_path="", bent_path="bent.obj", picture="bent.png"):
-    soup = tetsoup.read_surface(soup_path) if soup_path else as_surface(*tetsoup.sample("tree"))
-    mesh = tetsoup.tetrahedralize(soup, tets=500, cover="enclose")
+    soup = tetsoup.read_surface(soup_path) if soup_path else sample_surface()
+    mesh = tetsoup.tetrahedralize(soup, tets=2000, cover="enclose")
     embedding = mesh.embed(soup)
     report = embedding.report
     print(f"{report.inside:,} of {len(embedding):,} vertices in {len(mesh.tets):,} tets, {report.outside:,} outside")
 
-    wanted = bend(soup.vertices)
     bent = soup.with_vertices(embedding.deform(bend(mesh.points)))
     bent.save(bent_path)
     size = np.ptp(soup.vertices, axis=0).max()
-    error = np.linalg.norm(bent.vertices - wanted, axis=1).max() / size
+    error = np.linalg.norm(bent.vertices - bend(soup.vertices), axis=1).max() / size
     print(f"bent in {bent_path}, at most {100 * error:.2f} % of its size from the exact map")
     draw([soup, bent], picture)
 
 
-def as_surface(vertices, faces):
+def sample_surface():
+    vertices, faces = tetsoup.sample("tree")
     return tetsoup.RenderMesh(vertices, np.full(len(faces), 3), faces.ravel())
 
 
@@ -45,15 +45,12 @@ def bend(points):
 
 def draw(surfaces, picture):
     try:
-        import matplotlib
+        from matplotlib.figure import Figure
     except ImportError:
-        print("no picture: matplotlib is not installed")
-        return
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(1, 2, figsize=(10, 5), subplot_kw={"projection": "3d", "proj_type": "ortho"})
-    for axis, surface in zip(axes, surfaces):
+        return print("no picture: matplotlib is not installed")
+    figure = Figure(figsize=(10, 5))
+    for place, surface in enumerate(surfaces, 1):
+        axis = figure.add_subplot(1, 2, place, projection="3d", proj_type="ortho")
         axis.plot_trisurf(*surface.vertices.T, triangles=surface.triangles, linewidth=0)
         axis.set_aspect("equal")
     figure.savefig(picture)
