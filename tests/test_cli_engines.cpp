@@ -41,6 +41,17 @@ TEST_F(Tool, writes_for_an_engine_by_its_own_extension_in_metres) {
   EXPECT_NEAR(highest, 0.5, 0.1);
 }
 
+TEST_F(Tool, bodies_as_large_as_houses_are_asked_for_their_unit) {
+  const auto out_with = [&](const char* unit) {
+    return run({"mesh", "cube.obj", "-o", "body", "--for", "godot", "--voxels", "24", "--cells", "4",
+                "--metres-per-unit", unit})
+        .out;
+  };
+  EXPECT_NE(out_with("50").find("the body is 50 m long"), std::string::npos);
+  EXPECT_NE(out_with("1e-5").find("--metres-per-unit 0.001"), std::string::npos);
+  EXPECT_EQ(out_with("0.1").find("m long"), std::string::npos);
+}
+
 TEST_F(Tool, models_of_obj_stand_on_y_and_others_on_z_unless_told) {
   write_text(in_folder("tet.off"), "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
   const auto up_of = [&](const std::string& input) {

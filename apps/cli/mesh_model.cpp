@@ -164,6 +164,7 @@ std::string describe_model(const TetModel& model) {
     for (std::size_t r = 0; r < tets.size(); ++r)
       text += fmt::format("{} {} ({})", r == 0 ? "" : ",", model.regions[r].name, counted(tets[r], "tet"));
     text += ".\n";
+    if (tets.size() == 1) text += "Note: the model names nothing that makes regions; all tets are one.\n";
   }
   for (const VertexSet& pins : model.pins) {
     text += fmt::format("Pins '{}': {} held.\n", pins.name, counted(pins.vertices.size(), "vertex"));

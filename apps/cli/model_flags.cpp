@@ -65,9 +65,11 @@ struct HalfSpace {
 
 /// "z:0.1" (z up to 0.1), "-z:-0.1" (z from 0.1), or "X,Y,Z:OFFSET".
 HalfSpace parse_half_space(const std::string& text) {
-  const std::size_t colon = text.find(':');
-  if (colon == std::string::npos)
+  const auto fail = [&] {
     throw InvalidInput("--pin-below " + text + ": must be AXIS:OFFSET such as z:0.1, -x:2 or 0,1,1:0.5");
+  };
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) fail();
   const std::string axis = text.substr(0, colon);
   const double offset = parse_number("--pin-below", text.substr(colon + 1), kFinite);
   const bool turned = axis.starts_with('-');
@@ -76,6 +78,7 @@ HalfSpace parse_half_space(const std::string& text) {
   if (letter == "x") return {{one, 0, 0}, offset};
   if (letter == "y") return {{0, one, 0}, offset};
   if (letter == "z") return {{0, 0, one}, offset};
+  if (axis.find(',') == std::string::npos) fail();
   const Vec3d normal = parse_triple("--pin-below", axis);
   if (normal == Vec3d{}) throw InvalidInput("--pin-below " + text + ": the plane's normal must not be zero");
   return {normal, offset};

@@ -19,6 +19,7 @@
 #include "tetsoup/readiness.h"
 #include "tetsoup/embed.h"
 #include "tetsoup/regions.h"
+#include "tetsoup/simulate.h"
 #include "tetsoup/pipeline.h"
 
 namespace tetsoup {

@@ -7,7 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include "base/vec.h"
 #include "kernel/event_masks.h"
+#include "kernel/relax_tets.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup::reference {
@@ -94,6 +96,47 @@ inline kernel::WordEvents find_events(const kernel::BlockNeighbours& around) {
   }
   events.along_x = about(1, 0, 0);
   return events;
+}
+
+/// One tet of a batch, in double: moves its corners as kernel::relax_tets() does without damping, for a rotation that
+/// is known to be the identity.
+inline std::array<Vec3d, 4> relax_unturned_tet(const kernel::TetBatch& batch, std::size_t lane, std::array<Vec3d, 4> p,
+                                               const std::array<double, 4>& inverse_masses) {
+  const auto vector = [&](const kernel::TetLanes* from) {
+    return Vec3d{static_cast<double>(from[0][lane]), static_cast<double>(from[1][lane]),
+                 static_cast<double>(from[2][lane])};
+  };
+  std::array<Vec3d, 4> g;
+  for (std::size_t i = 1; i < 4; ++i) {
+    g[i] = vector(batch.gradients + 3 * (i - 1));
+    g[0] -= g[i];
+  }
+  const auto deformation = [&] {  // rows
+    std::array<Vec3d, 3> f;
+    for (std::size_t i = 0; i < 4; ++i) {
+      f[0] += g[i] * p[i].x;
+      f[1] += g[i] * p[i].y;
+      f[2] += g[i] * p[i].z;
+    }
+    return f;
+  };
+  std::array<Vec3d, 3> f = deformation();
+  const std::array<Vec3d, 3> strain{f[0] - Vec3d{1, 0, 0}, f[1] - Vec3d{0, 1, 0}, f[2] - Vec3d{0, 0, 1}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3d b = vector(batch.responses + 3 * i);
+    p[i] -= Vec3d{dot(strain[0], b), dot(strain[1], b), dot(strain[2], b)};
+  }
+  f = deformation();
+  const std::array<Vec3d, 3> cofactor{cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])};
+  std::array<Vec3d, 4> a;
+  double denominator = static_cast<double>(batch.volume_compliance[lane]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    a[i] = {dot(cofactor[0], g[i]), dot(cofactor[1], g[i]), dot(cofactor[2], g[i])};
+    denominator += inverse_masses[i] * squared_length(a[i]);
+  }
+  const double lambda = (1 - dot(f[0], cofactor[0])) / denominator;
+  for (std::size_t i = 0; i < 4; ++i) p[i] += a[i] * (lambda * inverse_masses[i]);
+  return p;
 }
 
 }  // namespace tetsoup::reference

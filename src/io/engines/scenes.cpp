@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/require.h"
+#include "io/engines/scene_parts.h"
 
 namespace tetsoup {
 
@@ -14,7 +15,10 @@ namespace {
 using SceneWriter = std::string (*)(const SceneInput&);
 
 const std::map<std::string_view, SceneWriter>& scene_writers() {
-  static const std::map<std::string_view, SceneWriter> writers;
+  static const std::map<std::string_view, SceneWriter> writers{
+      {"bullet", pybullet_scene}, {"calculix", calculix_scene}, {"drake", drake_scene},
+      {"mujoco", mujoco_scene},   {"newton", newton_scene},     {"sofa", sofa_scene},
+  };
   return writers;
 }
 

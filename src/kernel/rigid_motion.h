@@ -1,0 +1,36 @@
+// The motion of a part in one substep: predicting it, and telling rigid motion from deformation.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "kernel/places.h"
+#include "tetsoup/types.h"
+
+namespace tetsoup::kernel {
+
+/// Sums over the vertices with a mass m, about a centre: r = start - centre, d = what the displacement that came out
+/// lacks to the one that was predicted.
+struct MotionSums {
+  enum { Mass, X, Y, Z, Xx, Yy, Zz, Xy, Xz, Yz, Dx, Dy, Dz, Rdx, Rdy, Rdz, kCount };
+  std::array<double, kCount> values{};  ///< m, m r, m r r^T, m d, m r x d.
+};
+
+/// Displacement of a rigid body: t + turn x (p - centre).
+struct RigidDisplacement {
+  Vec3 t, turn;
+};
+
+/// Velocities += kick where a vertex can move; start = places; places += h velocity. All arrays in whole blocks.
+void predict(std::span<Place> places, std::span<Place> start, std::span<Motion> motions, const Vec3& kick, float h);
+
+/// The same bits on every instruction set: sixteen partial sums in float, added in their order in double.
+MotionSums sum_motion(std::span<const Place> places, std::span<const Place> start, std::span<const Motion> motions,
+                      const Vec3& centre, float h);
+
+/// Adds the correction to the displacements; velocities and places follow. What is right already is not rounded again,
+/// so that roundings do not add up over thousands of substeps.
+void correct_motion(std::span<Place> places, std::span<const Place> start, std::span<Motion> motions,
+                    const Vec3& centre, const RigidDisplacement& correction, float h);
+
+}  // namespace tetsoup::kernel

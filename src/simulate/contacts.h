@@ -1,0 +1,48 @@
+// Which vertices touch what, found every few substeps, and how they are pushed back and rubbed in each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tetsoup/types.h"
+
+namespace tetsoup::simulate {
+
+struct World;
+
+/// A vertex at the surface of a part: it stays on the outer side of the triangle, at the point that is nearest to it
+/// where the part is at rest.
+struct Contact {
+  std::uint32_t vertex = 0;
+  std::array<std::uint32_t, 3> corners{};
+  std::array<float, 3> weights{};
+  float friction = 0;
+  float reach = 0;             ///< How far along the triangle's plane the vertex may leave the point.
+  std::uint32_t part = 0;      ///< The triangle's,
+  std::uint32_t triangle = 0;  ///< and its number there.
+};
+
+/// A vertex at an obstacle: dot(normal, p) stays above offset.
+struct ObstacleContact {
+  std::uint32_t vertex = 0;
+  Vec3 normal;
+  float offset = 0;
+  float friction = 0;
+};
+
+struct ContactSet {
+  std::vector<Contact> between;  ///< Ascending by vertex, then part; one for each two.
+  std::vector<ObstacleContact> with_obstacles;
+};
+
+/// Finds what touches, or may touch within `horizon` seconds.
+void find_contacts(World& world, double horizon);
+
+/// Pushes and rubs, after all parts have moved freely for h.
+void solve_contacts(World& world, double h);
+
+/// Springs and attachments, likewise.
+void solve_links(World& world, double h);
+
+}  // namespace tetsoup::simulate

@@ -1,0 +1,59 @@
+// A piece of a body at rest: its tets in batches for the solver, and what they are made of.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/tet_geometry.h"
+#include "kernel/relax_tets.h"
+#include "tetsoup/simulate.h"
+
+namespace tetsoup::simulate {
+
+/// Pieces with more tets are solved by all threads at once, smaller ones by one thread each.
+inline constexpr std::size_t kSharedTets = 20000;
+
+/// Tets that hang together by vertices.
+struct Piece {
+  std::vector<Vec3d> places;            ///< At rest, in metres.
+  std::vector<Tet> tets;                ///< Of positive volume, into `places`.
+  std::vector<std::uint32_t> vertices;  ///< Of the mesh, for each place.
+};
+
+/// The pieces of a mesh, by their first tets; tets that cannot be simulated are in none.
+std::vector<Piece> split_pieces(const TetMesh& mesh, double scale);
+
+/// What the instances of a piece share.
+struct Rest {
+  Piece piece;
+  SimMaterial material;
+  std::vector<double> masses;             ///< A quarter of its tets' for every vertex.
+  std::vector<std::uint8_t> held;         ///< Pinned vertices; a piece with one has a Rest of its own.
+  std::size_t padded_count = 0;           ///< Vertices in whole blocks, with at least one of no mass.
+  std::vector<std::uint32_t> lanes;       ///< Place of each tet in the batches: batch * kTetLanes + lane.
+  std::vector<kernel::TetBatch> batches;  ///< Responses and compliances as `prepare` made them.
+  std::vector<std::size_t> colours;       ///< Ends of runs of batches that share no vertex.
+  double prepared_for = 0;                ///< Substep, s.
+
+  double shear_modulus() const { return material.elastic.young / (2 * (1 + material.elastic.poisson)); }
+  double lame() const {
+    const double nu = material.elastic.poisson;
+    return material.elastic.young * nu / ((1 + nu) * (1 - 2 * nu));
+  }
+  double inverse_mass(std::size_t v) const { return held[v] != 0 ? 0 : 1 / masses[v]; }
+  bool is_held() const;
+};
+
+Rest make_rest(Piece piece, const SimMaterial& material);
+
+/// Makes the batches' constants for substeps of h.
+void prepare(Rest& rest, double h);
+
+/// Gradients of the barycentric coordinates of a tet of positive volume.
+std::array<Vec3d, 4> barycentric_gradients(const TetCorners& p);
+
+inline TetCorners corners_at(const std::vector<Vec3d>& places, const Tet& tet) {
+  return {places[tet[0]], places[tet[1]], places[tet[2]], places[tet[3]]};
+}
+
+}  // namespace tetsoup::simulate

@@ -1,0 +1,141 @@
+#include "simulate/rest_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/tet_faces.h"
+
+namespace tetsoup::simulate {
+namespace {
+
+using Weights = std::array<double, 3>;
+
+Weights nearest_on_edge(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  const Vec3d edge = b - a;
+  const double square = squared_length(edge);
+  const double t = square > 0 ? std::clamp(dot(p - a, edge) / square, 0.0, 1.0) : 0;
+  return {1 - t, t, 0};
+}
+
+Vec3d at(const std::array<Vec3d, 3>& corners, const Weights& w) {
+  return corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
+}
+
+/// Within the triangle if the foot of p lies there, else on the nearest of its edges.
+Weights nearest_on_triangle(const Vec3d& p, const std::array<Vec3d, 3>& c) {
+  const Vec3d normal = cross(c[1] - c[0], c[2] - c[0]);
+  const double square = squared_length(normal);
+  Weights w{};
+  if (square > 0) {
+    for (std::size_t i = 0; i < 3; ++i) w[i] = dot(cross(c[(i + 1) % 3] - p, c[(i + 2) % 3] - p), normal) / square;
+    if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) return w;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const Weights along = nearest_on_edge(p, c[i], c[j]);
+    Weights candidate{};
+    candidate[i] = along[0];
+    candidate[j] = along[1];
+    const double distance = squared_length(at(c, candidate) - p);
+    if (!(distance < least)) continue;
+    least = distance;
+    w = candidate;
+  }
+  return w;
+}
+
+std::array<Vec3d, 3> corners_of_triangle(const RestSurface& surface, const Piece& piece, std::size_t t) {
+  const Triangle& triangle = surface.triangles[t];
+  return {piece.places[triangle[0]], piece.places[triangle[1]], piece.places[triangle[2]]};
+}
+
+double distance_to(const RestSurface& surface, const Piece& piece, std::size_t t, const Vec3d& p) {
+  const std::array<Vec3d, 3> corners = corners_of_triangle(surface, piece, t);
+  return length(at(corners, nearest_on_triangle(p, corners)) - p);
+}
+
+}  // namespace
+
+RestSurface make_rest_surface(const Piece& piece) {
+  TetMesh topology;
+  topology.vertices.resize(piece.places.size());
+  topology.tets = piece.tets;
+  const std::vector<TetFace> faces = sorted_faces(topology);
+  RestSurface surface;
+  surface.triangles = lone_faces(topology, faces);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto [a, b, c] = corners_of_triangle(surface, piece, t);
+    const Vec3d normal = cross(b - a, c - a);
+    const double size = length(normal);
+    surface.normals.push_back(size > 0 ? normal * (1 / size) : Vec3d{});
+    const Vec3d centre = (a + b + c) * (1.0 / 3);
+    surface.balls.push_back({centre, std::sqrt(std::max({squared_length(a - centre), squared_length(b - centre),
+                                                         squared_length(c - centre)}))});
+  }
+  surface.open_faces.assign(piece.tets.size(), 0);
+  for (std::size_t begin = 0; begin < faces.size();) {
+    const std::size_t end = face_run_end(faces, begin);
+    if (end - begin == 1)
+      surface.open_faces[faces[begin].slot / 4] |= static_cast<std::uint8_t>(1U << faces[begin].slot % 4);
+    begin = end;
+  }
+  for (const Triangle& t : surface.triangles) surface.vertices.insert(surface.vertices.end(), t.begin(), t.end());
+  std::sort(surface.vertices.begin(), surface.vertices.end());
+  surface.vertices.erase(std::unique(surface.vertices.begin(), surface.vertices.end()), surface.vertices.end());
+  surface.near.resize(piece.tets.size());
+  for (const Tet& tet : piece.tets)
+    for (const auto& e : kTetEdges)
+      surface.mean_edge +=
+          length(piece.places[tet[static_cast<std::size_t>(e[0])]] - piece.places[tet[static_cast<std::size_t>(e[1])]]);
+  surface.mean_edge /= static_cast<double>(6 * piece.tets.size());
+  return surface;
+}
+
+void find_near_triangles(RestSurface& surface, const Piece& piece, std::uint32_t tet) {
+  if (!surface.near[tet].empty()) return;
+  const TetCorners p = corners_at(piece.places, piece.tets[tet]);
+  const Vec3d middle = (p[0] + p[1] + p[2] + p[3]) * 0.25;
+  double radius = 0;
+  for (const Vec3d& corner : p) radius = std::max(radius, 1.5 * length(corner - middle));
+  std::vector<double> distances(surface.triangles.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < distances.size(); ++t) {
+    distances[t] = distance_to(surface, piece, t, middle);
+    least = std::min(least, distances[t]);
+  }
+  // Distance is 1-Lipschitz: what is nearest somewhere in the ball is at most so much farther from its middle; what
+  // faces some way counts up to a mean edge from the ball.
+  const double farthest = std::max(least + 2 * radius, radius + surface.mean_edge);
+  std::vector<std::uint32_t>& near = surface.near[tet];
+  for (std::uint32_t t = 0; t < distances.size(); ++t)
+    if (distances[t] <= farthest) near.push_back(t);
+  std::stable_sort(near.begin(), near.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return distances[a] < distances[b]; });
+}
+
+SurfacePoint nearest_surface_point(const RestSurface& surface, const Piece& piece, std::uint32_t tet, const Vec3d& p,
+                                   const std::optional<Vec3d>& facing) {
+  constexpr double kSameSide = 0.5;  // cosine
+  SurfacePoint nearest;
+  double least = facing ? surface.mean_edge * surface.mean_edge : std::numeric_limits<double>::infinity();
+  bool found = false;
+  for (const std::uint32_t t : surface.near[tet]) {
+    if (facing && dot(surface.normals[t], *facing) < kSameSide) continue;
+    const std::array<Vec3d, 3> corners = corners_of_triangle(surface, piece, t);
+    const double to_plane = dot(p - corners[0], surface.normals[t]);
+    if (to_plane * to_plane >= least) continue;
+    const double to_ball = length(p - surface.balls[t].centre) - surface.balls[t].radius;
+    if (to_ball > 0 && to_ball * to_ball >= least) continue;
+    const Weights w = nearest_on_triangle(p, corners);
+    const double distance = squared_length(at(corners, w) - p);
+    if (!(distance < least)) continue;
+    least = distance;
+    nearest = {t, w};
+    found = true;
+  }
+  return found || !facing ? nearest : nearest_surface_point(surface, piece, tet, p, {});
+}
+
+}  // namespace tetsoup::simulate

@@ -1,0 +1,45 @@
+// The surface of a piece at rest: how deep a point lies in the piece, and which way out is the shortest.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "simulate/rest.h"
+
+namespace tetsoup::simulate {
+
+struct Ball {
+  Vec3d centre;
+  double radius = 0;
+};
+
+struct RestSurface {
+  std::vector<Triangle> triangles;               ///< Counter-clockwise from outside.
+  std::vector<Vec3d> normals;                    ///< Of unit length; zero without an area.
+  std::vector<Ball> balls;                       ///< Around the triangles.
+  std::vector<std::uint32_t> vertices;           ///< Of the triangles, ascending.
+  std::vector<std::uint8_t> open_faces;          ///< Bit i of a tet: its face opposite corner i is on the surface.
+  std::vector<std::vector<std::uint32_t>> near;  ///< Triangles that may be nearest to points of a tet, once asked for.
+  double mean_edge = 0;                          ///< Of the tets.
+};
+
+RestSurface make_rest_surface(const Piece& piece);
+
+/// Finds the triangles that nearest_surface_point() has to look at for points in and half a tet around the tet, once
+/// and for all.
+void find_near_triangles(RestSurface& surface, const Piece& piece, std::uint32_t tet);
+
+struct SurfacePoint {
+  std::uint32_t triangle = 0;
+  std::array<double, 3> weights{};
+};
+
+/// The nearest point of the surface to a place at rest in the tet, whose near triangles are known. With `facing`, only
+/// triangles count that face this way within 60 degrees, unless those are all farther than a mean edge: what has got in
+/// through one side is not pushed out at another because an edge is near.
+SurfacePoint nearest_surface_point(const RestSurface& surface, const Piece& piece, std::uint32_t tet, const Vec3d& p,
+                                   const std::optional<Vec3d>& facing);
+
+}  // namespace tetsoup::simulate

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <cmath>
+
+#include "simulate/world.h"
+
+namespace tetsoup::simulate {
+namespace {
+
+/// Time in which a depth is mostly undone, s: fast to the eye, slow beside a substep, so nothing pops.
+constexpr double kPushTime = 0.02;
+/// However deep, a vertex is not pushed out faster than this, m/s.
+constexpr double kPushSpeed = 2;
+
+struct V {
+  float x, y, z;
+};
+V operator+(const V& a, const V& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+V operator-(const V& a, const V& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+V operator*(const V& a, float s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+float dot(const V& a, const V& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+V cross(const V& a, const V& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Places, their displacements in this substep, and how to change both.
+class Movers {
+ public:
+  Movers(World& world, double h)
+      : places_(world.places), start_(world.start), motions_(world.motions), rate_(static_cast<float>(1 / h)) {}
+
+  V start(std::uint32_t v) const { return {start_[v].x, start_[v].y, start_[v].z}; }
+  V place(std::uint32_t v) const { return {places_[v].x, places_[v].y, places_[v].z}; }
+  V displacement(std::uint32_t v) const { return place(v) - start(v); }
+  float inverse_mass(std::uint32_t v) const { return places_[v].inverse_mass; }
+  void move(std::uint32_t v, const V& by) {
+    places_[v].x += by.x, places_[v].y += by.y, places_[v].z += by.z;
+    motions_[v].x += by.x * rate_, motions_[v].y += by.y * rate_, motions_[v].z += by.z * rate_;
+  }
+
+ private:
+  std::vector<kernel::Place>& places_;
+  const std::vector<kernel::Place>& start_;
+  std::vector<kernel::Motion>& motions_;
+  float rate_;
+};
+
+/// How contacts push in substeps of one length.
+struct Push {
+  float share, most;
+
+  explicit Push(double h)
+      : share(static_cast<float>(1 - std::exp(-h / kPushTime))), most(static_cast<float>(kPushSpeed * h)) {}
+
+  /// The displacement along the normal that a contact with this gap must have at least.
+  float wanted(float gap) const { return gap >= 0 ? -gap : std::min(-gap * share, most); }
+
+  /// What is to be added to the relative displacement u: along the normal what lacks, and against sliding at most
+  /// friction times as much [Coulomb]; nothing if nothing lacks.
+  bool correction(const V& u, const V& normal, float gap, float friction, V& out) const {
+    const float along = dot(u, normal), lacking = wanted(gap) - along;
+    if (!(lacking > 0)) return false;
+    const V sliding = u - normal * along;
+    const float slid = std::sqrt(dot(sliding, sliding));
+    out = normal * lacking;
+    if (slid > 0) out = out - sliding * (std::min(friction * lacking, slid) / slid);
+    return true;
+  }
+};
+
+bool solve(const Contact& c, const Push& push, Movers& m) {
+  const V a = m.start(c.corners[0]), b = m.start(c.corners[1]), d = m.start(c.corners[2]);
+  const V n = cross(b - a, d - a);
+  const float size = std::sqrt(dot(n, n));
+  if (!(size > 0)) return false;
+  const V normal = n * (1 / size);
+  const V apart = m.start(c.vertex) - (a * c.weights[0] + b * c.weights[1] + d * c.weights[2]);
+  const float gap = dot(apart, normal);
+  if (dot(apart, apart) - gap * gap > c.reach * c.reach) return false;
+  V u = m.displacement(c.vertex);
+  float weight = m.inverse_mass(c.vertex);
+  for (std::size_t i = 0; i < 3; ++i) {
+    u = u - m.displacement(c.corners[i]) * c.weights[i];
+    weight += m.inverse_mass(c.corners[i]) * c.weights[i] * c.weights[i];
+  }
+  V correction{};
+  if (!(weight > 0) || !push.correction(u, normal, gap, c.friction, correction)) return false;
+  const V impulse = correction * (1 / weight);
+  m.move(c.vertex, impulse * m.inverse_mass(c.vertex));
+  for (std::size_t i = 0; i < 3; ++i) m.move(c.corners[i], impulse * (-c.weights[i] * m.inverse_mass(c.corners[i])));
+  return true;
+}
+
+bool solve(const ObstacleContact& c, const Push& push, Movers& m) {
+  if (!(m.inverse_mass(c.vertex) > 0)) return false;
+  const V normal{c.normal.x, c.normal.y, c.normal.z};
+  V correction{};
+  if (!push.correction(m.displacement(c.vertex), normal, dot(normal, m.start(c.vertex)) - c.offset, c.friction,
+                       correction))
+    return false;
+  m.move(c.vertex, correction);
+  return true;
+}
+
+}  // namespace
+
+void solve_links(World& world, double h) {
+  Movers m(world, h);
+  for (const Spring& spring : world.springs) {
+    const float w = m.inverse_mass(spring.slot);
+    if (spring.removed || !(w > 0)) continue;
+    const float share = w / (w + static_cast<float>(1 / (spring.stiffness * h * h)));
+    m.move(spring.slot, (V{spring.target.x, spring.target.y, spring.target.z} - m.place(spring.slot)) * share);
+  }
+  for (const Attachment& link : world.attachments) {
+    const float a = m.inverse_mass(link.a), b = m.inverse_mass(link.b);
+    if (!(a + b > 0)) continue;
+    const V apart = m.place(link.b) - m.place(link.a);
+    m.move(link.a, apart * (a / (a + b)));
+    m.move(link.b, apart * (-b / (a + b)));
+  }
+}
+
+void solve_contacts(World& world, double h) {
+  Movers m(world, h);
+  const Push push(h);
+  world.report.contacts = world.report.touching = 0;
+  for (const Contact& c : world.contacts.between) world.report.contacts += solve(c, push, m) ? 1 : 0;
+  for (const ObstacleContact& c : world.contacts.with_obstacles) world.report.touching += solve(c, push, m) ? 1 : 0;
+}
+
+}  // namespace tetsoup::simulate

@@ -1,0 +1,113 @@
+#include "simulate/substep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "kernel/rigid_motion.h"
+#include "simulate/check.h"
+#include "simulate/rigid_fit.h"
+
+namespace tetsoup::simulate {
+namespace {
+
+/// Tets that are worth a task.
+constexpr std::size_t kTaskTets = 1500;
+/// Batches of a colour that are worth a task.
+constexpr std::int64_t kTaskBatches = 32;
+
+/// All batches; a large piece's colours on all threads.
+void relax(const Rest& rest, Part& part, const kernel::Substep& substep, StageWatch& watch) {
+  if (rest.piece.tets.size() <= kSharedTets) return kernel::relax_tets(rest.batches, part.rotations, substep);
+  for (std::size_t first = 0; const std::size_t end_of_colour : rest.colours) {
+    const std::size_t count = end_of_colour - first;
+    parallel_for(static_cast<std::int64_t>(count), kTaskBatches, watch, [&](std::int64_t begin, std::int64_t end) {
+      const std::size_t at = first + static_cast<std::size_t>(begin), many = static_cast<std::size_t>(end - begin);
+      kernel::relax_tets(std::span(rest.batches).subspan(at, many), std::span(part.rotations).subspan(at, many),
+                         substep);
+    });
+    first = end_of_colour;
+  }
+}
+
+/// What elasticity took from the momenta is given back. Held parts have no momentum of their own.
+void settle_momenta(World& world, const Part& part, double h) {
+  const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
+  const auto motions = world.slice(world.motions, part);
+  const auto step = static_cast<float>(h);
+  Vec3 centre{start[0].x, start[0].y, start[0].z};
+  kernel::RigidDisplacement missing;
+  if (!world.rest_of(part).is_held()) {
+    const RigidFit fit = fit_rigid_motion(kernel::sum_motion(places, start, motions, centre, step));
+    centre = to_float(to_double(centre) + fit.centre);
+    missing = fit.displacement;
+  }
+  kernel::correct_motion(places, start, motions, centre, missing, step);
+}
+
+void move_implicitly(World& world, Part& part, double h, StageWatch& watch) {
+  const Vec3 kick = to_float(world.options.gravity * ((part.last_h + h) / 2));
+  const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
+  kernel::predict(places, start, world.slice(world.motions, part), kick, static_cast<float>(h));
+  const double damping_time = world.rest_of(part).material.damping_time;
+  const auto damped = static_cast<float>(damping_time / (damping_time + h));
+  relax(world.rest_of(part), part, {places.data(), start.data(), damped}, watch);
+  settle_momenta(world, part, h);
+}
+
+/// Verlet's scheme: forces where the part is, then velocities, then places [THMG04].
+void move_by_potentials(World& world, Part& part, double h) {
+  const Rest& rest = world.rest_of(part);
+  const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
+  const auto motions = world.slice(world.motions, part);
+  const double kick = (part.last_h + h) / 2;
+  const double most = world.surfaces[part.surface].mean_edge / h;
+  part.clamped += add_forces(world.nets[part.rest], rest, places, motions, kick, most);
+  kernel::predict(places, start, motions, to_float(world.options.gravity * kick), static_cast<float>(h));
+}
+
+/// Parts [begin, end) of about kTaskTets each.
+std::vector<std::size_t> task_ends(const World& world) {
+  std::vector<std::size_t> ends;
+  std::size_t tets = 0;
+  for (std::size_t i = 0; i < world.parts.size(); ++i) {
+    tets += world.rest_of(world.parts[i]).piece.tets.size();
+    if (tets < kTaskTets && i + 1 < world.parts.size()) continue;
+    ends.push_back(i + 1);
+    tets = 0;
+  }
+  return ends;
+}
+
+}  // namespace
+
+int count_substeps(const World& world, double dt) {
+  if (world.options.solver == Solver::Implicit) return world.options.substeps;
+  double stable = dt / world.options.substeps;
+  for (const SpringNet& net : world.nets) stable = std::min(stable, net.stable_time_step);
+  return static_cast<int>(std::ceil(std::min(dt / stable, double{kMaxSubsteps})));
+}
+
+void prepare_substeps(World& world, double h) {
+  if (world.options.solver != Solver::Implicit) return;
+  for (Rest& rest : world.rests) prepare(rest, h);
+}
+
+void move_freely(World& world, double h) {
+  const Progress nobody;
+  StageWatch watch(nobody, "simulate");
+  const std::vector<std::size_t> ends = task_ends(world);
+  parallel_for(static_cast<std::int64_t>(ends.size()), 1, watch, [&](std::int64_t begin, std::int64_t) {
+    const auto task = static_cast<std::size_t>(begin);
+    for (std::size_t i = task == 0 ? 0 : ends[task - 1]; i < ends[task]; ++i) {
+      Part& part = world.parts[i];
+      if (world.options.solver == Solver::Implicit)
+        move_implicitly(world, part, h, watch);
+      else
+        move_by_potentials(world, part, h);
+      part.last_h = h;
+    }
+  });
+}
+
+}  // namespace tetsoup::simulate

@@ -1,0 +1,213 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kernel/targets.h"
+#include "lattice_shapes.h"
+#include "shapes.h"
+#include "tetsoup/error.h"
+#include "tetsoup/progress.h"
+#include "tetsoup/simulate.h"
+
+namespace tetsoup {
+namespace {
+
+constexpr double kFrame = 1.0 / 60;
+
+TetMesh block() {
+  return block_mesh({3, 2, 2}, 0.1);
+}
+
+/// Nothing pulls, nothing touches.
+SimulationOptions in_space(Solver solver = Solver::Implicit) {
+  SimulationOptions options;
+  options.solver = solver;
+  options.gravity = {};
+  options.contacts = Contacts::None;
+  return options;
+}
+
+SimMaterial undamped() {
+  SimMaterial material;
+  material.damping_time = 0;
+  return material;
+}
+
+Vec3d mean_of(std::span<const Vec3> points) {
+  Vec3d sum;
+  for (const Vec3& p : points) sum += to_double(p);
+  return sum * (1 / static_cast<double>(points.size()));
+}
+
+TEST(Simulate, FreeFallIsExact) {
+  for (const Solver solver : {Solver::Implicit, Solver::Potentials}) {
+    SimulationOptions options;
+    options.solver = solver;
+    Simulation simulation(options);
+    const std::size_t body = simulation.add_body(block(), {}, {.velocity = {1, 2, 3}});
+    const Vec3d from = mean_of(simulation.positions(body));
+    for (int frame = 0; frame < 60; ++frame) simulation.step(kFrame);
+    const Vec3d expected = from + Vec3d{1, 2, 3 - 9.81 / 2};
+    EXPECT_LT(length(mean_of(simulation.positions(body)) - expected), 5e-5);  // 600 roundings of 5 m
+    EXPECT_NEAR(simulation.time(), 1, 1e-12);
+  }
+}
+
+TEST(Simulate, MomentaStayWithinRoundingOverTenThousandSubsteps) {
+  for (const Solver solver : {Solver::Implicit, Solver::Potentials}) {
+    SimulationOptions options = in_space(solver);
+    options.substeps = 100;
+    Simulation simulation(options);
+    simulation.add_body(block(), undamped(), {.velocity = {0.2, -0.1, 0.1}, .spin = {2, 1, -3}});
+    const Momentum before = simulation.momentum();
+    int substeps = 0;
+    while (substeps < 10000) {
+      simulation.step(kFrame);
+      substeps += simulation.report().substeps;
+    }
+    const Momentum after = simulation.momentum();
+    EXPECT_LT(length(after.linear - before.linear), 1e-5 * length(before.linear));
+    EXPECT_LT(length(after.angular - before.angular), 1e-4 * length(before.angular));
+  }
+}
+
+TEST(Simulate, EnergyDoesNotGrow) {
+  for (const Solver solver : {Solver::Implicit, Solver::Potentials}) {
+    Simulation simulation(in_space(solver));
+    const std::size_t body = simulation.add_body(block(), undamped(), {.spin = {3, 5, 2}});
+    std::vector<Vec3> stretched(simulation.positions(body).begin(), simulation.positions(body).end());
+    for (Vec3& p : stretched) p.x *= 1.3F;
+    simulation.set_positions(body, stretched);
+    simulation.step(kFrame);  // rotations are known from here on
+    double most = simulation.energy().total();
+    const double first = most;
+    for (int frame = 0; frame < 300; ++frame) {
+      simulation.step(kFrame);
+      // The explicit solver's energy swings about its mean by the square of the substep.
+      EXPECT_LE(simulation.energy().total(), solver == Solver::Implicit ? most * (1 + 1e-4) : first * 1.1);
+      most = std::min(most, simulation.energy().total());
+    }
+  }
+}
+
+TEST(Simulate, ThreadsAndInstructionSetsLeaveNoTrace) {
+  const auto run = [] {
+    SimulationOptions options;
+    options.substeps = 6;
+    Simulation simulation(options);
+    simulation.add_plane({0, 0, 1}, 0);
+    std::vector<Pose> poses;
+    for (int i = 0; i < 12; ++i)
+      poses.push_back(
+          {.translate = {0.15 * (i % 2), 0.1 * (i % 3), 0.05 + 0.22 * i}, .rotate = {0.3 * i, 0.1, 0.2 * i}});
+    simulation.add_bodies(block_mesh({4, 3, 3}, 0.05), {}, poses);
+    for (int frame = 0; frame < 40; ++frame) simulation.step(kFrame);
+    EXPECT_GT(simulation.report().contacts, 0U);
+    return simulation.state_hash();
+  };
+  const std::uint64_t expected = run();
+  set_thread_count(1);
+  EXPECT_EQ(run(), expected);
+  set_thread_count(0);
+  for_each_simd_target([&](const std::string& target) { EXPECT_EQ(run(), expected) << target; });
+}
+
+TEST(Simulate, APieceThatAllThreadsShareIsTheSameWithOne) {
+  const auto run = [] {
+    SimulationOptions options = in_space();
+    options.substeps = 2;
+    Simulation simulation(options);
+    simulation.add_body(block_mesh({17, 16, 16}, 0.05), {}, {.spin = {1, 2, 3}});  // 21,760 tets
+    simulation.step(kFrame);
+    return simulation.state_hash();
+  };
+  const std::uint64_t expected = run();
+  set_thread_count(1);
+  EXPECT_EQ(run(), expected);
+  set_thread_count(0);
+}
+
+TEST(Simulate, BodiesOfOneMakeMoveAsBodiesAddedOneByOne) {
+  const std::vector<Pose> poses{{.spin = {1, 0, 0}}, {.translate = {5, 0, 0}, .spin = {0, 2, 0}}};
+  Simulation together(in_space()), apart(in_space());
+  EXPECT_EQ(together.add_bodies(block(), {}, poses), 0U);
+  for (const Pose& pose : poses) apart.add_body(block(), {}, pose);
+  together.pin({1, 0});
+  apart.pin({1, 0});
+  for (int frame = 0; frame < 10; ++frame) {
+    together.step(kFrame);
+    apart.step(kFrame);
+  }
+  EXPECT_EQ(together.state_hash(), apart.state_hash());
+}
+
+TEST(Simulate, APinnedVertexStaysUntilItIsLetGo) {
+  Simulation simulation;
+  const std::size_t body = simulation.add_body(block());
+  const Vec3 held = simulation.positions(body)[0];
+  simulation.pin({body, 0});
+  for (int frame = 0; frame < 30; ++frame) simulation.step(kFrame);
+  EXPECT_EQ(simulation.positions(body)[0], held);
+  EXPECT_GT(mean_of(simulation.positions(body)).z, -1);
+  simulation.unpin({body, 0});
+  for (int frame = 0; frame < 60; ++frame) simulation.step(kFrame);
+  EXPECT_LT(simulation.positions(body)[0].z, held.z - 1);
+}
+
+TEST(Simulate, ASpringHoldsABodyUpAndAnAttachmentASecondOne) {
+  Simulation simulation;
+  const std::size_t a = simulation.add_body(block()), b = simulation.add_body(block(), {}, {.translate = {2, 0, 0}});
+  const double weight = 2 * 12 * 9.81;
+  const std::size_t spring = simulation.add_spring({a, 0}, {0, 0, 5}, 1000);
+  simulation.attach({a, 20}, {b, 5});
+  // They swing for long, so the spring carries their weight in the mean.
+  double sum = 0;
+  constexpr int kFrames = 1200;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    simulation.step(kFrame);
+    sum += 5 - static_cast<double>(simulation.positions(a)[0].z);
+    ASSERT_LT(length(to_double(simulation.positions(a)[20]) - to_double(simulation.positions(b)[5])), 0.01);
+  }
+  EXPECT_NEAR(sum / kFrames * 1000, weight, 0.05 * weight);
+  simulation.remove_spring(spring);
+  EXPECT_THROW(simulation.move_spring(spring, {}), InvalidInput);
+}
+
+TEST(Simulate, WhatCannotBeSimulatedIsLeftOutAndCounted) {
+  TetMesh mesh = block();
+  const std::size_t tets = mesh.tets.size();
+  mesh.tets.push_back({0, 1, 2, 99999});
+  mesh.tets.push_back({0, 0, 1, 2});
+  mesh.tets.push_back({mesh.tets[0][1], mesh.tets[0][0], mesh.tets[0][2], mesh.tets[0][3]});
+  mesh.vertices.push_back({std::numeric_limits<float>::quiet_NaN(), 0, 0});
+  Simulation simulation;
+  const std::size_t body = simulation.add_body(mesh), nothing = simulation.add_body({});
+  EXPECT_EQ(simulation.report().tet_count, tets);
+  EXPECT_EQ(simulation.report().left_out, 3U);
+  EXPECT_EQ(simulation.report().loose_vertices, 1U);
+  simulation.step(kFrame);
+  EXPECT_TRUE(std::isfinite(simulation.positions(body).back().x));
+  EXPECT_TRUE(simulation.positions(nothing).empty());
+}
+
+TEST(Simulate, WhatIsOutOfRangeIsRefusedByNameAndChangesNothing) {
+  SimulationOptions options;
+  options.substeps = 0;
+  EXPECT_THROW(Simulation{options}, InvalidInput);
+  Simulation simulation;
+  SimMaterial material;
+  material.elastic.poisson = 0.5;
+  EXPECT_THROW(simulation.add_body(block(), material), InvalidInput);
+  EXPECT_THROW(simulation.add_body(block(), {}, {.translate = {1e6, 0, 0}}), InvalidInput);
+  EXPECT_THROW(simulation.add_body(block(), {}, {.scale = 0}), InvalidInput);
+  EXPECT_THROW(simulation.add_plane({0, 0, 0}, 0), InvalidInput);
+  EXPECT_THROW(simulation.step(0), InvalidInput);
+  EXPECT_THROW(simulation.step(std::numeric_limits<double>::quiet_NaN()), InvalidInput);
+  EXPECT_THROW(simulation.pin({0, 0}), InvalidInput);
+  EXPECT_EQ(simulation.body_count(), 0U);
+}
+
+}  // namespace
+}  // namespace tetsoup
