@@ -15,13 +15,10 @@ def main(soup_path="", bent_path="bent.obj", picture="bent.png"):
     soup = tetsoup.read_surface(soup_path) if soup_path else sample_surface()
     mesh = tetsoup.tetrahedralize(soup, tets=2000, cover="enclose")
     embedding = mesh.embed(soup)
-    report = embedding.report
-    print(f"{report.inside:,} of {len(embedding):,} vertices in {len(mesh.tets):,} tets, {report.outside:,} outside")
-
+    print(f"{embedding.report.inside:,} of {len(embedding):,} vertices lie in {len(mesh.tets):,} tets")
     bent = soup.with_vertices(embedding.deform(bend(mesh.points)))
     bent.save(bent_path)
-    size = np.ptp(soup.vertices, axis=0).max()
-    error = np.linalg.norm(bent.vertices - bend(soup.vertices), axis=1).max() / size
+    error = np.linalg.norm(bent.vertices - bend(soup.vertices), axis=1).max() / np.ptp(soup.vertices, axis=0).max()
     print(f"bent in {bent_path}, at most {100 * error:.2f} % of its size from the exact map")
     draw([soup, bent], picture)
 

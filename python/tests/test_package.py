@@ -85,7 +85,7 @@ def test_example_sweep(tmp_path):
 def test_example_embed_and_deform(tmp_path):
     said = run(sys.executable, EXAMPLES / "embed_and_deform.py", cwd=tmp_path)
     error = re.search(r"at most ([0-9.]+) % of its size", said)
-    assert error and float(error[1]) < 2, said
+    assert error and float(error[1]) < 1, said
     assert len(tetsoup.read(tmp_path / "bent.obj").faces) == len(tetsoup.sample("tree").faces)
 
 
