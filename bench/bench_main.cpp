@@ -75,6 +75,8 @@ void save_soup(const std::string& what) {
   fail("--save takes input:FILE, one_triangle:FILE or many_triangles:FILE");
 }
 
+constexpr int kEmbedVoxels = 128;  // The grid does not matter to it: one is enough.
+
 void add_rows(const std::vector<int>& sizes) {
   add_read_field_rows();
   add_file_rows();
@@ -83,6 +85,7 @@ void add_rows(const std::vector<int>& sizes) {
     add_stage_rows({.voxels = voxels});
     add_full_distance_row({.voxels = voxels});
     add_slider_rows(voxels);
+    if (voxels == kEmbedVoxels) add_embed_rows(voxels);
     add_thread_rows({.voxels = voxels});
   }
   for (const SoupName soup : {SoupName::OneTriangle, SoupName::ManyTriangles})

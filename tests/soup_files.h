@@ -45,7 +45,34 @@ std::string raw(Number value, bool big = false) {
   return bytes;
 }
 
-/// Parses or throws IoError that names the file; in both cases within memory the bytes can justify.
+inline RenderMesh parse_mesh(std::string_view bytes, SoupFormat format) {
+  return parse_render_mesh(std::as_bytes(std::span(bytes)), format, "sample");
+}
+
+/// Bit for bit: NaN equals itself.
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// A render mesh is the soup, and what its corners name is there.
+inline void expect_same_surface(const RenderMesh& mesh, const TriangleSoup& soup) {
+  const TriangleSoup cut = triangles_of(mesh);
+  EXPECT_TRUE(same_bits(cut.vertices, soup.vertices));
+  EXPECT_TRUE(same_bits(cut.triangles, soup.triangles));
+  EXPECT_EQ(triangle_faces(mesh).size(), soup.triangles.size());
+  EXPECT_EQ(mesh.face_parts.size(), mesh.face_sizes.size());
+  const auto expect_choices = [&](const std::vector<std::uint32_t>& choices, std::size_t count) {
+    EXPECT_TRUE(choices.empty() || choices.size() == mesh.corners.size());
+    for (const std::uint32_t choice : choices) EXPECT_TRUE(choice < count || choice == RenderMesh::kNone);
+  };
+  expect_choices(mesh.corner_texcoords, mesh.texcoords.size());
+  expect_choices(mesh.corner_normals, mesh.normals.size());
+  for (const std::uint32_t size : mesh.face_sizes) EXPECT_GE(size, 3U);
+}
+
+/// Parses, as a soup and as a render mesh alike, or throws IoError that names the file; in both cases within memory the
+/// bytes can justify.
 inline bool parses_soberly(std::string_view bytes, SoupFormat format) {
   constexpr std::size_t kMemoryPerByte = 64, kMemoryAlways = 1 << 16;
   largest_allocation = 0;
@@ -55,8 +82,11 @@ inline bool parses_soberly(std::string_view bytes, SoupFormat format) {
     EXPECT_LE(soup.vertices.size(), bytes.size());
     EXPECT_LE(soup.triangles.size(), bytes.size());
     parsed = true;
+    expect_same_surface(parse_mesh(bytes, format), soup);
   } catch (const IoError& error) {
     EXPECT_TRUE(std::string_view(error.what()).starts_with("sample")) << error.what();
+    EXPECT_FALSE(parsed) << "as a soup alone, but not as a render mesh: " << error.what();
+    EXPECT_THROW(parse_mesh(bytes, format), IoError);
   }
   EXPECT_LE(largest_allocation, kMemoryPerByte * bytes.size() + kMemoryAlways);
   return parsed;

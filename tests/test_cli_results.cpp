@@ -137,7 +137,8 @@ TEST_F(Tool, ctrl_c_stops_a_long_run_and_leaves_no_file) {
 TEST_F(Tool, writes_several_formats_and_a_picture_in_one_run) {
   const Outcome outcome = mesh_cube({"-o", "cube.vtk", "-o", "cube.node", "-o", "skin.stl", "--preview", "cube.png"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(files(), (Words{"cube.ele", "cube.msh", "cube.node", "cube.obj", "cube.png", "cube.vtk", "skin.stl"}));
+  EXPECT_EQ(files(),
+            (Words{"cube.ele", "cube.face", "cube.msh", "cube.node", "cube.obj", "cube.png", "cube.vtk", "skin.stl"}));
 }
 
 TEST_F(Tool, takes_a_format_by_name) {
@@ -151,6 +152,19 @@ TEST_F(Tool, inspects_a_soup) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(Json::parse(outcome.out).at("soup").at("class"), "closed");
   EXPECT_NE(outcome.err.find("closed surface"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Tool, inspect_lists_the_names_of_parts) {
+  write_text(in_folder("named.obj"),
+             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no my body\nusemtl red\x1b[1m\nf 1 2 3 4\ng lid\nf 1 2 4\n");
+  const Outcome outcome = run({"inspect", "named.obj", "--json", "-"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(
+      Json::parse(outcome.out).at("parts").dump(),
+      R"([{"kind":"object","name":"my body","triangle_count":3},{"kind":"group","name":"lid","triangle_count":1},)"
+      R"({"kind":"material","name":"red\u001b[1m","triangle_count":3}])");
+  EXPECT_NE(outcome.err.find("triangles of object                  3  'my body'\n"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("'red?[1m'"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Tool, inspects_a_tet_mesh_that_it_wrote) {

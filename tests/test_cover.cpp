@@ -3,7 +3,7 @@
 
 #include "base/bits.h"
 #include "lattice/passed_voxels.h"
-#include "lattice/tet_locator.h"
+#include "base/tet_locator.h"
 #include "lattice_shapes.h"
 #include "shapes.h"
 #include "stages.h"

@@ -1,4 +1,5 @@
 // glTF and GLB: transforms, modes, accessors nobody may trust, and damage.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -234,16 +235,61 @@ TEST(ReadGltf, external_buffers_are_followed_below_the_files_folder_only) {
   EXPECT_NE(error("short.bin").find("buffer 0: promises 108 bytes, there are 4"), std::string::npos);
 }
 
+/// Two nodes show a mesh whose primitives share their vertices; the first also has texture coordinates and normals.
+std::string detailed_glb(const std::string& texcoords = "3") {
+  const std::string nodes =
+      R"("nodes":[{"name":"door","mesh":0,"scale":[2,1,-1]},{"mesh":0}],"materials":[{},{"name":"red"}])";
+  const std::string meshes = R"("meshes":[{"name":"panel","primitives":[
+{"attributes":{"POSITION":0,"NORMAL":0,"TEXCOORD_0":)" +
+                             texcoords + R"(},"indices":2,"material":1},
+{"attributes":{"POSITION":0},"mode":5,"material":7}]}])";
+  std::string accessors = kAccessors;
+  accessors.replace(accessors.rfind(R"({"bufferView":0)"), std::string::npos,
+                    R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC2"}])");
+  return glb(nodes, meshes, accessors);
+}
+
+TEST(ReadGltf, render_meshes_keep_texture_coordinates_normals_and_names) {
+  const RenderMesh mesh = parse_mesh(detailed_glb(), kGltf);
+  EXPECT_EQ(mesh.face_sizes, std::vector<std::uint32_t>(8, 3));
+  EXPECT_EQ(mesh.parts, (std::vector<RenderMesh::Part>{
+                            {"door", "", "red"}, {"door", "", ""}, {"panel", "", "red"}, {"panel", "", ""}}));
+  EXPECT_EQ(mesh.face_parts, (std::vector<std::uint32_t>{0, 0, 1, 1, 2, 2, 3, 3}));
+  const std::uint32_t none = RenderMesh::kNone;
+  EXPECT_EQ(mesh.corner_texcoords, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, none, none, none, none, none, none,  //
+                                                               4, 5, 6, 4, 6, 7, none, none, none, none, none, none}));
+  EXPECT_EQ(mesh.corner_normals, mesh.corner_texcoords);
+  // v runs upwards.
+  EXPECT_EQ(std::vector(mesh.texcoords.begin(), mesh.texcoords.begin() + 4),
+            (std::vector<Vec2>{{0, 1}, {0, 0}, {0, 1}, {1, 0}}));
+  // The plane x + y = 0, stretched along x, is x / 2 + y = 0.
+  EXPECT_NEAR(mesh.normals[2].x, 1 / std::sqrt(5.0), 1e-6);
+  EXPECT_NEAR(mesh.normals[2].y, 2 / std::sqrt(5.0), 1e-6);
+  EXPECT_EQ(mesh.normals[1], (Vec3{1, 0, 0}));
+  EXPECT_EQ(mesh.normals[0], (Vec3{0, 0, 0}));
+}
+
+TEST(ReadGltf, texture_coordinates_that_cannot_be_read_are_left_out) {
+  for (const char* accessor : {"0", "2", "9", "-1"}) {
+    const RenderMesh mesh = parse_mesh(detailed_glb(accessor), kGltf);
+    EXPECT_EQ(mesh.face_sizes.size(), 8U);
+    EXPECT_TRUE(mesh.texcoords.empty() && mesh.corner_texcoords.empty());
+    EXPECT_FALSE(mesh.corner_normals.empty());
+  }
+}
+
 TEST(ReadGltf, every_truncation_throws) {
   const std::string binary = glb(kOneNode, mesh(kSquare));
   expect_truncations_throw(binary, kGltf, binary.size());
   expect_truncations_throw(embedded_gltf(), kGltf, embedded_gltf().size() - 1);
+  expect_truncations_throw(detailed_glb(), kGltf, detailed_glb().size());
 }
 
 TEST(ReadGltf, a_hundred_thousand_flipped_bytes_are_survived) {
   const std::string all =
       mesh(kSquare + R"(,{"attributes":{"POSITION":1},"mode":5},{"attributes":{"POSITION":3},"mode":6})");
-  expect_damage_survived(glb(kOneNode, all), kGltf, 60'000, 9);
+  expect_damage_survived(glb(kOneNode, all), kGltf, 40'000, 9);
+  expect_damage_survived(detailed_glb(), kGltf, 20'000, 11);
   expect_damage_survived(embedded_gltf(), kGltf, 40'000, 10);
 }
 

@@ -110,7 +110,9 @@ std::string sample() {
   for (int i = 0; i < 12; ++i) {
     text += "v " + std::to_string(i * 0.37 - 1) + " " + std::to_string(i % 2) + "e-1 -" + std::to_string(i) + "\n";
   }
-  text += "vn 0 0 1\nf 1/2/3 2//3 3\nf -12 -1 -2 -3\nf 5 \\\n 6 7 8 9\n";
+  text +=
+      "vt 0 .5\no a b\nvn 0 0 1\nf 1/2/3 2//3 3\ng c\nusemtl d\nf 1/1/1 2/-1/-1 3/1\nf -12 -1 -2 -3\nf 5 \\\n 6 7 8 "
+      "9\n";
   for (int i = 1; i <= 10; ++i) text += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " 12\n";
   return text;
 }

@@ -19,7 +19,7 @@ std::string rich_header(const std::string& format) {
          "element camera 2\nproperty double f\nproperty list uint16 short pixels\n"
          "element vertex 4\nproperty uchar red\nproperty list uchar float weights\nproperty float32 z\nproperty double "
          "x\n"
-         "property int y\nproperty int8 flag\nproperty uint s\n"
+         "property int y\nproperty int8 t\nproperty uint s\n"
          "element empty 1000000000000\n"
          "element face 2\nproperty ushort material\nproperty list uint8 int vertex_indices\nproperty list char uchar "
          "uv\n"

@@ -58,6 +58,7 @@ std::vector<Dialect> all_dialects(const TetMesh& mesh) {
           {"vtu_base64", vtu(mesh, VtuData::AppendedBase64), parse_vtu},
           {"vtu_big_endian", vtu(mesh, VtuData::BigEndian), parse_vtu},
           {"medit", written(mesh, TetFormat::Medit), parse_medit},
+          {"npz", written(mesh, TetFormat::Npz), parse_npz},
           {"medit_with_extras", medit_with_extras(mesh), parse_medit},
           {"node", own_nodes, with_tets(own_tets)},
           {"node_from_one", nodes, with_tets(tets)},
@@ -105,15 +106,30 @@ TEST(ReadTets, every_dialect_gives_back_the_mesh_to_the_bit) {
 
 TEST_F(ReadTetsTest, what_was_written_is_read_back_through_the_file_system) {
   const TetMesh mesh = block_of_tets(3);
-  for (const TetFormatInfo& info : tet_formats()) {
-    if (info.format == TetFormat::Surface) continue;
-    SCOPED_TRACE(info.name);
-    for (const fs::path& path : write_tets(folder_ / ("m" + info.extension), mesh, info.format)) {
+  for (const auto& [name, format] : std::vector<std::pair<std::string, TetFormat>>{{"m.msh", TetFormat::Msh41},
+                                                                                   {"m.msh", TetFormat::Msh22},
+                                                                                   {"m.vtk", TetFormat::Vtk},
+                                                                                   {"m.vtu", TetFormat::Vtu},
+                                                                                   {"m.mesh", TetFormat::Medit},
+                                                                                   {"m.npz", TetFormat::Npz},
+                                                                                   {"m.node", TetFormat::Tetgen}}) {
+    SCOPED_TRACE(name);
+    for (const fs::path& path : write_tets(folder_ / name, mesh, format)) {
       EXPECT_TRUE(is_tet_file(path));
       expect_same_bits(read_tets(path), mesh);
     }
   }
   expect_same_bits(read_tets(folder_ / "m"), mesh);  // The TetGen pair by its common name.
+}
+
+TEST_F(ReadTetsTest, formats_that_are_only_written_are_refused_as_such) {
+  for (const char* name : {"m.tet", "m.veg", "m.inp", "m.vol", "m.json"}) {
+    write_tets(folder_ / name, few_tets());
+    EXPECT_TRUE(is_tet_file(folder_ / name));
+    const std::string text = io_error_of([&] { read_tets(folder_ / name); });
+    EXPECT_NE(text.find(name), text.npos) << text;
+    EXPECT_NE(text.find("writes such files but does not read them"), text.npos) << text;
+  }
 }
 
 TEST_F(ReadTetsTest, the_first_bytes_tell_what_the_extension_does_not) {

@@ -103,14 +103,16 @@ TEST_F(WriteTetsTest, medit_ends_every_entity_with_a_reference) {
 }
 
 TEST_F(WriteTetsTest, tetgen_files_stand_side_by_side_whichever_of_them_is_named) {
-  const std::vector<fs::path> pair{folder_ / "m.node", folder_ / "m.ele"};
-  for (const char* name : {"m.node", "m.ele"}) EXPECT_EQ(write_tets(folder_ / name, few_tets()), pair);
-  EXPECT_EQ(write_tets(folder_ / "m", few_tets(), TetFormat::Tetgen), pair);
-  EXPECT_EQ(lines_of(pair[0]).at(0), "6 3 0 0");
-  EXPECT_EQ(lines_of(pair[1]), (std::vector<std::string>{"2 4 0", "0 0 1 2 3", "1 0 2 1 4"}));
+  const std::vector<fs::path> set{folder_ / "m.node", folder_ / "m.ele", folder_ / "m.face"};
+  for (const char* name : {"m.node", "m.ele", "m.face"}) EXPECT_EQ(write_tets(folder_ / name, few_tets()), set);
+  EXPECT_EQ(write_tets(folder_ / "m", few_tets(), TetFormat::Tetgen), set);
+  EXPECT_EQ(lines_of(set[0]).at(0), "6 3 0 0");
+  EXPECT_EQ(lines_of(set[1]), (std::vector<std::string>{"2 4 0", "0 0 1 2 3", "1 0 2 1 4"}));
+  EXPECT_EQ(lines_of(set[2]), (std::vector<std::string>{"6 1", "0 1 2 3 1", "1 0 3 2 1", "2 0 1 3 1", "3 2 1 4 1",
+                                                        "4 0 4 1 1", "5 0 2 4 1"}));
 }
 
-TEST_F(WriteTetsTest, if_one_of_tetgens_files_cannot_be_written_the_other_stays_as_it_was) {
+TEST_F(WriteTetsTest, if_one_of_tetgens_files_cannot_be_written_the_others_stay_as_they_were) {
   put_file(folder_ / "m.node", "old");
   fs::create_directory(folder_ / "m.ele");
   EXPECT_NE(io_error_of([&] { write_tets(folder_ / "m.node", few_tets()); }).find("m.ele"), std::string::npos);
@@ -150,6 +152,7 @@ TEST(TetFormats, are_told_by_extension_whatever_its_case) {
   EXPECT_EQ(tet_format_of("a.mesh"), TetFormat::Medit);
   EXPECT_EQ(tet_format_of("a.ele"), TetFormat::Tetgen);
   EXPECT_EQ(tet_format_of("a.stl"), TetFormat::Surface);
+  EXPECT_EQ(tet_format_of("a.obj"), TetFormat::Surface) << "OBJ is tets only where that is asked for";
   for (const char* name : {"a.xyz", "msh", ""}) {
     const std::string text = io_error_of([&] { tet_format_of(name); });
     for (const TetFormatInfo& info : tet_formats()) EXPECT_NE(text.find(info.extension), text.npos) << text;
@@ -159,7 +162,7 @@ TEST(TetFormats, are_told_by_extension_whatever_its_case) {
 TEST(TetFormats, have_names_of_their_own) {
   std::set<std::string> names;
   for (const TetFormatInfo& info : tet_formats()) names.insert(info.name);
-  EXPECT_EQ(names.size(), 7U);
+  EXPECT_EQ(names.size(), tet_formats().size());
 }
 
 TEST_F(WriteTetsTest, surfaces_leave_out_vertices_that_no_triangle_uses) {

@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "commands.h"
 #include "files.h"
@@ -27,7 +29,7 @@ struct InspectCommand {
 
 constexpr const char* kExamples =
     "Examples:\n"
-    "  tetsoup inspect bunny.ply             parts, open edges, triangles that cannot be used\n"
+    "  tetsoup inspect bunny.ply             parts and their names, open edges, triangles that cannot be used\n"
     "  tetsoup inspect bunny.msh             quality of a tet mesh, histogram of its dihedral angles\n"
     "  tetsoup inspect bunny.msh --json -    the same for scripts";
 
@@ -47,9 +49,10 @@ Diagnosis diagnose(const std::string& input, const Material& material, ProgressB
     return {tabulate_tets(input, quality) + describe_readiness(readiness, material),
             tets_report_json(input, quality, readiness, material)};
   }
-  const TriangleSoup soup = read_soup(input);
-  const SoupReport report = clean_soup(soup, bar.callback()).report;
-  return {tabulate_soup(input, report), soup_report_json(input, report)};
+  const RenderMesh surface = read_render_mesh(input);
+  const std::vector<PartName> parts = part_names(surface);
+  const SoupReport report = clean_soup(triangles_of(surface), bar.callback()).report;
+  return {tabulate_soup(input, report, parts), soup_report_json(input, report, parts)};
 }
 
 void run_inspect(const InspectCommand& command) {
@@ -76,7 +79,7 @@ void add_inspect_command(CLI::App& app) {
   inspect->group("Commands")->footer(kExamples);
   inspect
       ->add_option("IN", command->input,
-                   "Triangles (.obj .stl .ply .off .gltf .glb) or tets (.msh .vtk .vtu .mesh .node)")
+                   "Triangles (.obj .stl .ply .off .gltf .glb) or tets (.msh .vtk .vtu .mesh .npz .node)")
       ->required()
       ->option_text(" ");
   add_flag(

@@ -1,12 +1,15 @@
 // tetsoup mesh: a soup in, a tet mesh out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "angles.h"
 #include "commands.h"
 #include "files.h"
 #include "interrupt.h"
+#include "mesh_model.h"
+#include "mesh_outputs.h"
 #include "mesh_run.h"
 #include "options.h"
 #include "readiness_page.h"
@@ -22,12 +25,13 @@ namespace {
 
 struct MeshCommand {
   std::string input;
-  std::vector<std::string> outputs;
-  std::optional<std::string> format;
+  WantedMeshes meshes;
+  ModelOptions model;
   std::optional<std::string> json;
   std::optional<std::string> preview;
   MeshOptions options;
   Material material;
+  bool material_is_default = true;
   RunOptions run;
 };
 
@@ -37,27 +41,30 @@ constexpr const char* kExamples =
     "  tetsoup mesh bunny.ply -o bunny.vtk --tets 10000        more and smaller tets\n"
     "  tetsoup mesh bunny.ply -o bunny.msh --lattice bcc --fit  tets all alike, laid where they meet the shape best\n"
     "  tetsoup mesh tree.obj -o tree.msh --band-voxels 2       bridge wider gaps between loose triangles\n"
+    "  tetsoup mesh bunny.obj -o bunny --for mujoco            what an engine reads, in metres\n"
+    "  tetsoup mesh bunny.obj -o bunny.usda --enclose           the model itself inside the tets, to be moved by them\n"
+    "  tetsoup mesh lamp.glb -o lamp --for calculix --regions material --region brass=8500,1e11,0.34 --pin-below y:0\n"
+    "  tetsoup mesh part.stl -o part.inp --format inp --metres-per-unit 0.001\n"
     "  tetsoup mesh part.stl -o part.msh --voxels 256 --preview part.png --json part.json\n"
     "\n"
     "Exit codes: 0 done, 1 internal error or out of memory, 2 wrong usage or option, 3 a file cannot be read or\n"
     "written, 4 nothing in the file can be meshed, 130 cancelled.";
 
-std::string describe_formats() {
-  std::string text = "Format, instead of the one that the file's name tells:";
-  for (const TetFormatInfo& info : tet_formats()) text += fmt::format("\n{:<8} {}", info.name, info.summary);
-  return text;
+void add_embedding(Outputs& outputs, const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".npz" && extension != ".embedding")
+    throw InvalidInput("--embed " + path + ": the name must end in .npz or .embedding");
+  outputs.add("--embed", path);
 }
 
 /// Everything about the outputs that can be wrong is found here, before the work starts.
-std::vector<TetFormat> check_outputs(const MeshCommand& command) {
-  if (command.format && command.outputs.size() > 1)
-    throw InvalidInput("--format: needs exactly one -o; with several the files' names tell the formats");
+std::vector<PlannedMesh> check_outputs(const MeshCommand& command) {
   Outputs outputs(command.input);
-  std::vector<TetFormat> formats;
-  for (const std::string& path : command.outputs) formats.push_back(outputs.add_mesh("-o", path, command.format));
+  std::vector<PlannedMesh> planned = plan_meshes(command.meshes, outputs);
+  if (command.model.embed) add_embedding(outputs, *command.model.embed);
   if (command.preview) outputs.add("--preview", *command.preview, ".png");
   if (command.json && *command.json != "-") outputs.add("--json", *command.json);
-  return formats;
+  return planned;
 }
 
 void take_stage_times(MeshRun& run) {
@@ -82,13 +89,27 @@ void measure(MeshRun& run, bool compare) {
   run.seconds.quality = watch.seconds();
 }
 
-void write_meshes(const MeshCommand& command, const std::vector<TetFormat>& formats, MeshRun& run, NewFiles& files) {
+/// The input as its file describes it, where something is to be made of that; else empty.
+RenderMesh read_surface(const MeshCommand& command, const std::vector<PlannedMesh>& planned) {
+  const bool held =
+      std::any_of(planned.begin(), planned.end(), [](const PlannedMesh& mesh) { return holds_surface(mesh.format); });
+  RenderMesh surface;
+  if (wants_surface(command.model, held)) surface = read_input_surface(command.input);
+  check_names(command.model, surface);
+  return surface;
+}
+
+void write_meshes(const MeshCommand& command, const std::vector<PlannedMesh>& planned, MeshRun& run, NewFiles& files) {
   const Stopwatch watch;
-  for (std::size_t i = 0; i < formats.size(); ++i) {
+  for (const PlannedMesh& mesh : planned) {
     throw_if_interrupted();
-    files.expect_mesh(command.outputs[i], formats[i]);
-    const auto written = write_tets(command.outputs[i], run.pipeline->smooth().mesh, formats[i]);
-    run.outputs.insert(run.outputs.end(), written.begin(), written.end());
+    files.expect_all(mesh.files);
+    write_planned(mesh, run.model, command.material_is_default, run);
+  }
+  if (command.model.embed) {
+    files.expect(*command.model.embed);
+    write_embedding(*command.model.embed, run.model.embedding);
+    run.outputs.push_back(*command.model.embed);
   }
   run.seconds.write = watch.seconds();
 }
@@ -121,17 +142,19 @@ void draw_preview(const std::string& path, MeshRun& run, NewFiles& files) {
 void run_mesh(MeshCommand& command) {
   const Stopwatch watch;
   check_input(command.input);
-  const std::vector<TetFormat> formats = check_outputs(command);
+  const std::vector<PlannedMesh> planned = check_outputs(command);
   ProgressBar bar(command.run.quiet);
   MeshRun run;
   run.input = command.input;
   run.material = command.material;
-  const Pipeline pipeline = [&] {
-    Pipeline opened = open_pipeline(command.input, bar, run.seconds.read);
-    command.options.memory_limit = memory_limit(command.run);  // what is left once the soup is in memory
-    opened.run(command.options, bar.callback());
-    return opened;
-  }();
+  bar.show("read");
+  const Stopwatch read_watch;
+  RenderMesh surface = read_surface(command, planned);
+  const TriangleSoup soup = surface.vertices.empty() ? read_input_soup(command.input) : triangles_of(surface);
+  run.seconds.read = read_watch.seconds();
+  Pipeline pipeline = open_pipeline(command.input, soup, bar);
+  command.options.memory_limit = memory_limit(command.run);  // what is left once the soup is in memory
+  pipeline.run(command.options, bar.callback());
   run.options = command.options;
   run.pipeline = &pipeline;
   take_stage_times(run);
@@ -139,9 +162,10 @@ void run_mesh(MeshCommand& command) {
     bar.show("measure");
     measure(run, command.json.has_value());
   }
+  run.model = make_model(run, command.model, std::move(surface), bar);
   bar.show("write");
   NewFiles files;
-  write_meshes(command, formats, run, files);
+  write_meshes(command, planned, run, files);
   if (command.preview) draw_preview(*command.preview, run, files);
   bar.clear();
   throw_if_interrupted();
@@ -165,20 +189,14 @@ void add_mesh_command(CLI::App& app) {
   CLI::App* const mesh = app.add_subcommand("mesh", "Turn a triangle soup into a tet mesh");
   mesh->group("Commands")->footer(kExamples);
   mesh->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb")->required()->option_text(" ");
-  mesh->add_option("-o,--output", command->outputs,
-                   "File for the mesh, by name .msh .vtk .vtu .mesh .node, or the\nboundary only: .obj .stl .ply; may "
-                   "be given several times")
-      ->required()
-      ->allow_extra_args(false)
-      ->option_text("OUT");
-  add_flag(
-      *mesh, "--format", "NAME", [command](const std::string& text) { command->format = text; }, describe_formats());
+  add_output_flags(*mesh, command->meshes);
   add_grid_flags(*mesh, command->options.distance);
   add_volume_flags(*mesh, command->options.pseudo_volume);
   add_lattice_flags(*mesh, command->options.lattice);
   add_cover_flags(*mesh, command->options.lattice);
   add_topology_flags(*mesh, command->options.lattice.topology);
   add_smooth_flags(*mesh, command->options.smooth);
+  add_model_flags(*mesh, command->model);
   add_material_flags(*mesh, command->material);
   add_flag(
       *mesh, "--json", "FILE|-", [command](const std::string& text) { command->json = text; },
@@ -189,7 +207,10 @@ void add_mesh_command(CLI::App& app) {
       "Draw soup, votes, lattice and mesh into a .png")
       ->group("Reports");
   add_run_flags(*mesh, command->run);
-  mesh->callback([command] { run_mesh(*command); });
+  mesh->callback([command, mesh] {
+    command->material_is_default = mesh->count("--density") + mesh->count("--young") + mesh->count("--poisson") == 0;
+    run_mesh(*command);
+  });
 }
 
 }  // namespace tetsoup::cli

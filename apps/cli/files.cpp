@@ -17,13 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
-
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
@@ -34,6 +27,13 @@ bool is_sample(const std::string& name) {
 }
 
 }  // namespace
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
 
 void check_input(const fs::path& path) {
   const std::string name = path.string();
@@ -51,10 +51,23 @@ void check_input(const fs::path& path) {
     throw IoError(fmt::format("{}: cannot be read: {}; check its permissions", name, std::strerror(errno)));
 }
 
-TriangleSoup read_input_soup(const fs::path& path) {
+namespace {
+
+void refuse_tets(const fs::path& path) {
   if (is_tet_file(path))
     throw IoError(path.string() + ": this is a tet mesh already; `tetsoup inspect` shows its quality");
+}
+
+}  // namespace
+
+TriangleSoup read_input_soup(const fs::path& path) {
+  refuse_tets(path);
   return read_soup(path);
+}
+
+RenderMesh read_input_surface(const fs::path& path) {
+  refuse_tets(path);
+  return read_render_mesh(path);
 }
 
 void Outputs::add(std::string_view flag, const fs::path& path) {
@@ -95,7 +108,7 @@ TetFormat Outputs::add_mesh(std::string_view flag, const fs::path& path, const s
   } else {
     format = tet_format_of(path);
   }
-  add(flag, path);
+  for (const fs::path& file : tet_files(path, format)) add(flag, file);
   return format;
 }
 
@@ -110,12 +123,8 @@ void NewFiles::expect(const fs::path& path) {
   if (!fs::exists(path, error)) made_.push_back(path);
 }
 
-void NewFiles::expect_mesh(const fs::path& path, TetFormat format) {
-  if (format != TetFormat::Tetgen) return expect(path);
-  const std::string extension = lower_extension(path);
-  const fs::path stem = extension == ".node" || extension == ".ele" ? fs::path(path).replace_extension() : path;
-  expect(path);
-  for (const char* const ending : {".node", ".ele"}) expect(fs::path(stem) += ending);
+void NewFiles::expect_all(const std::vector<fs::path>& paths) {
+  for (const fs::path& path : paths) expect(path);
 }
 
 void write_stdout(std::string_view text) {

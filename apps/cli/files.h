@@ -10,11 +10,17 @@
 
 namespace tetsoup::cli {
 
+/// In lower case, with the dot.
+std::string lower_extension(const std::filesystem::path& path);
+
 /// @throws IoError  unless the path names something that can be read as a file; a sample's name gets a hint.
 void check_input(const std::filesystem::path& path);
 
 /// Reads a soup; a tet mesh is refused with a hint.
 TriangleSoup read_input_soup(const std::filesystem::path& path);
+
+/// The same with all that the file says about it.
+RenderMesh read_input_surface(const std::filesystem::path& path);
 
 /// All that one run will write.
 class Outputs {
@@ -29,7 +35,8 @@ class Outputs {
   /// The same for a file that must have this extension.
   void add(std::string_view flag, const std::filesystem::path& path, std::string_view extension);
 
-  /// Adds a tet mesh. @return  The format: `name` as --format takes it, else by extension.
+  /// Adds a tet mesh and what is written beside it. @return  The format: `name` as --format takes it, else by
+  /// extension.
   TetFormat add_mesh(std::string_view flag, const std::filesystem::path& path, const std::optional<std::string>& name);
 
  private:
@@ -47,7 +54,7 @@ class NewFiles {
 
   /// To be called before `path` is written; a file that stands there already is not ours to remove.
   void expect(const std::filesystem::path& path);
-  void expect_mesh(const std::filesystem::path& path, TetFormat format);
+  void expect_all(const std::vector<std::filesystem::path>& paths);
   void keep() { kept_ = true; }
 
  private:

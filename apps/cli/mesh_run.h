@@ -10,6 +10,7 @@
 #include "tetsoup/pipeline.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/readiness.h"
+#include "tetsoup/tet_model.h"
 
 namespace tetsoup::cli {
 
@@ -25,6 +26,8 @@ struct Timings {
 struct MeshRun {
   std::string input;
   std::vector<std::filesystem::path> outputs;  ///< Files written, the report itself left out.
+  std::string engine;                          ///< That they were written for; empty: none.
+  std::string next_step;                       ///< What to do with them, one line; empty where that is open.
   MeshOptions options;
   const Pipeline* pipeline = nullptr;  ///< Every stage has run.
   Quality quality;                     ///< Of the final mesh.
@@ -32,6 +35,7 @@ struct MeshRun {
   BoundaryDistance raw_distance;       ///< and of the lattice's.
   double iou = 0;                      ///< Of the final mesh and the pseudo volume.
   Material material;
+  TetModel model;  ///< What is written.
   Readiness readiness;
   Timings seconds;
 };

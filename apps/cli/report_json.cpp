@@ -238,6 +238,34 @@ const char* class_name(SoupClass kind) {
   return "empty";
 }
 
+Json embedding_json(const Embedding& embedding) {
+  if (embedding.tets.empty()) return nullptr;
+  const EmbedReport& report = embedding.report;
+  return {{"inside", report.inside},         {"outside", report.outside},       {"drawn_closer", report.drawn_closer},
+          {"other_copy", report.other_copy}, {"non_finite", report.non_finite}, {"max_distance", report.max_distance}};
+}
+
+Json regions_json(const TetModel& model) {
+  std::vector<std::size_t> tets(model.regions.size(), 0);
+  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) ++tets[model.tet_regions.empty() ? 0 : model.tet_regions[t]];
+  Json regions = Json::array();
+  for (std::size_t r = 0; r < tets.size(); ++r) {
+    const Region& region = model.regions[r];
+    regions.push_back({{"name", region.name},
+                       {"tet_count", tets[r]},
+                       {"density", region.material.density},
+                       {"young", region.material.young},
+                       {"poisson", region.material.poisson}});
+  }
+  return regions;
+}
+
+Json pins_json(const TetModel& model) {
+  Json pins = Json::array();
+  for (const VertexSet& set : model.pins) pins.push_back({{"name", set.name}, {"vertex_count", set.vertices.size()}});
+  return pins;
+}
+
 std::string mesh_report_json(const MeshRun& run) {
   const Pipeline& pipeline = *run.pipeline;
   const PseudoVolumeReport& volume = pipeline.pseudo_volume().report;
@@ -265,17 +293,28 @@ std::string mesh_report_json(const MeshRun& run) {
                   {"version", TETSOUP_VERSION},
                   {"input", run.input},
                   {"outputs", outputs},
+                  {"engine", run.engine.empty() ? Json() : Json(run.engine)},
                   {"options", options_json(run.options)},
                   {"grid", grid_json(pipeline.distance())},
                   {"pseudo_volume", pseudo_volume_json(volume)},
                   {"lattice", lattice_json(pipeline.lattice().report)},
                   {"smooth", smooth_json(pipeline.smooth().report)},
                   {"quality", quality_json(run.quality)},
+                  {"embedding", embedding_json(run.model.embedding)},
+                  {"regions", regions_json(run.model)},
+                  {"pins", pins_json(run.model)},
                   {"readiness", readiness_json(run.readiness, run.material)}});
 }
 
-std::string soup_report_json(const std::string& input, const SoupReport& report) {
-  return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"soup", soup_json(report)}});
+std::string soup_report_json(const std::string& input, const SoupReport& report, const std::vector<PartName>& parts) {
+  Json list = Json::array();
+  for (const PartName& part : parts)
+    list.push_back({{"kind", kind_name(part.kind)}, {"name", part.name}, {"triangle_count", part.triangle_count}});
+  return text_of({{"input", input}, {"version", TETSOUP_VERSION}, {"soup", soup_json(report)}, {"parts", list}});
+}
+
+const char* kind_name(PartKind kind) {
+  return kind == PartKind::Object ? "object" : kind == PartKind::Group ? "group" : "material";
 }
 
 std::string tets_report_json(const std::string& input, const Quality& quality, const Readiness& readiness,

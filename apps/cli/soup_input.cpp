@@ -14,6 +14,10 @@ Pipeline open_pipeline(const std::filesystem::path& input, ProgressBar& bar, dou
   const Stopwatch watch;
   const TriangleSoup soup = read_input_soup(input);
   read_seconds = watch.seconds();
+  return open_pipeline(input, soup, bar);
+}
+
+Pipeline open_pipeline(const std::filesystem::path& input, const TriangleSoup& soup, ProgressBar& bar) {
   throw_if_interrupted();
   Pipeline pipeline(soup, bar.callback());
   const SoupReport& report = pipeline.soup().report;

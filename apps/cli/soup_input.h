@@ -22,4 +22,7 @@ class Stopwatch {
 /// @throws CannotMesh   if no finite triangle is in the file.
 Pipeline open_pipeline(const std::filesystem::path& input, ProgressBar& bar, double& read_seconds);
 
+/// The same for a soup that was read from there.
+Pipeline open_pipeline(const std::filesystem::path& input, const TriangleSoup& soup, ProgressBar& bar);
+
 }  // namespace tetsoup::cli

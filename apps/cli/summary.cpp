@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "angles.h"
+#include "mesh_model.h"
 #include "readiness_page.h"
 #include "report_json.h"
 
@@ -154,6 +155,19 @@ void note_lattice(const MeshRun& run, std::vector<std::string>& notes) {
                                 4 * run.quality.tet_count));
 }
 
+/// A model drawn in millimetres is a thousand times too large for an engine that takes its unit for the metre.
+void note_size(const MeshRun& run, std::vector<std::string>& notes) {
+  constexpr double kSmall = 0.001, kLarge = 10;  // metres
+  const Box3& box = run.pipeline->soup().report.box;
+  const double size =
+      std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z}) * run.material.metres_per_unit;
+  if (run.engine.empty() || (size >= kSmall && size <= kLarge)) return;
+  notes.push_back(
+      fmt::format("For the engine the body is {:.3g} m long. If the model's unit is another than {:.3g} m, say so: "
+                  "--metres-per-unit 0.001 for millimetres.",
+                  size, run.material.metres_per_unit));
+}
+
 void note_faults(const Quality& quality, std::vector<std::string>& notes) {
   if (quality.inverted_tets + quality.invalid_tets > 0)
     notes.push_back(
@@ -247,10 +261,13 @@ std::string describe_run(const MeshRun& run) {
   if (!raised.empty()) notes.push_back(raised);
   note_lattice(run, notes);
   note_faults(run.quality, notes);
+  note_size(run, notes);
   for (const std::string& note : notes) text += "Note: " + note + "\n";
+  text += describe_model(run.model);
   text += describe_readiness(run.readiness, run.material);
   text += describe_seconds(run.seconds);
   for (const auto& path : run.outputs) text += "Wrote " + path.string() + "\n";
+  if (!run.next_step.empty()) text += "Next: " + run.next_step + "\n";
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "mesh_run.h"
 #include "tetsoup/distance.h"
+#include "tetsoup/io.h"
 #include "tetsoup/pseudo_volume.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/soup.h"
@@ -33,7 +34,7 @@ std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& vo
 std::string describe_run(const MeshRun& run);
 
 /// A table of the soup's numbers.
-std::string tabulate_soup(const std::string& name, const SoupReport& soup);
+std::string tabulate_soup(const std::string& name, const SoupReport& soup, const std::vector<PartName>& parts);
 
 /// A table of a tet mesh's numbers, with a histogram of its dihedral angles.
 std::string tabulate_tets(const std::string& name, const Quality& quality);

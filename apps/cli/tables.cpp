@@ -42,9 +42,24 @@ std::string histogram(const Quality& quality) {
   return text;
 }
 
+/// Nothing if the file names none. A name's control characters are not for the terminal.
+std::string named_parts(const std::vector<PartName>& parts) {
+  constexpr std::size_t kMost = 40;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(parts.size(), kMost); ++i) {
+    std::string name = parts[i].name;
+    for (char& c : name)
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+    text += fmt::format("  {:<24}{:>14}  '{}'\n", std::string("triangles of ") + kind_name(parts[i].kind),
+                        grouped(parts[i].triangle_count), name);
+  }
+  if (parts.size() > kMost) text += fmt::format("  and {} names more: --json lists them all\n", parts.size() - kMost);
+  return text;
+}
+
 }  // namespace
 
-std::string tabulate_soup(const std::string& name, const SoupReport& soup) {
+std::string tabulate_soup(const std::string& name, const SoupReport& soup, const std::vector<PartName>& parts) {
   std::string text = fmt::format("{}: {}\n", name,
                                  soup.kind == SoupClass::Closed ? "closed surface"
                                  : soup.kind == SoupClass::Open ? "surface with open edges"
@@ -65,7 +80,7 @@ std::string tabulate_soup(const std::string& name, const SoupReport& soup) {
   const Vec3d &lo = soup.box.lo, &hi = soup.box.hi;
   text += fmt::format("  box from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", lo.x, lo.y, lo.z, hi.x, hi.y,
                       hi.z);
-  return text + fmt::format("Mesh it with: tetsoup mesh {} -o out.msh\n", name);
+  return text + named_parts(parts) + fmt::format("Mesh it with: tetsoup mesh {} -o out.msh\n", name);
 }
 
 std::string tabulate_tets(const std::string& name, const Quality& q) {

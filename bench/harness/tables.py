@@ -78,6 +78,12 @@ def sliders_table(results):
     return (["slider", "grid", *TIMES], lines) if lines else None
 
 
+def embedding_table(results):
+    measured = [(label, results.find(what, targets.EMBEDDING_VOXELS), target) for label, what, target in targets.EMBEDDING]
+    lines = [[label, *timing_cells(results, row, target)] for label, row, target in measured if row]
+    return (["1M vertices", *TIMES], lines) if lines else None
+
+
 def same_results(rows):
     """Do rows of the same work agree on what came out? Counters that are times or rates are not among them."""
     return "yes" if all(row.counters == rows[0].counters for row in rows) else "NO"
@@ -208,6 +214,7 @@ def machine_lines(facts, results):
 TABLES = [
     ("stages", "Stages against their targets", stages_table),
     ("sliders", "Slider steps, distance known, 3K tets", sliders_table),
+    ("embedding", "Embedding a million vertices, 3K tets", embedding_table),
     ("memory", "Peak memory of the tool", memory_table),
     ("growth", "Growth with the grid", growth_table),
     ("threads", "Threads", threads_table),

@@ -25,6 +25,14 @@ SLIDERS = [
 ]
 SLIDER_VOXELS = 128
 
+EMBEDDING = [
+    ("hang on the tets, half of them outside", "embed", 300),
+    ("hang on the tets, enclosed", "embed_enclosed", 300),
+    ("move points", "deform_points", None),
+    ("move normals", "deform_normals", None),
+]
+EMBEDDING_VOXELS = 128
+
 TOOL_TETS = {64: 5000}  # on other grids:
 DEFAULT_TETS = 3000
 

@@ -20,17 +20,22 @@ struct Engine {
   TetFormat format;
   std::string extension;        ///< Of the mesh file, with the dot.
   std::string scene_extension;  ///< What the scene's file adds to the stem: ".xml", "_sofa.py"; empty: there is none.
+  std::string usage;  ///< What to do next, one line in which {mesh}, {stem} and {scene} stand for names of files.
 };
 
 /// All of them, in alphabetical order.
 const std::vector<Engine>& engines();
 
+/// By name, or by another name it goes by: "pybullet" is bullet.
 /// @throws InvalidInput  listing them, if there is none of that name.
 const Engine& find_engine(std::string_view name);
 
-/// Files that write_for_engine() would write: the mesh's first. `path` may leave the extension out.
+/// Files that write_for_engine() may write: the mesh's first. `path` may leave the extension out.
 /// @throws InvalidInput  if the path has another extension than the engine's.
 std::vector<std::filesystem::path> engine_files(const Engine& engine, const std::filesystem::path& path);
+
+/// The engine's usage with the names of the files that engine_files() gives.
+std::string engine_usage(const Engine& engine, const std::filesystem::path& path);
 
 /// Writes the mesh as this engine reads it (in metres, positive tets unless it wants others) and beside it, where there
 /// is one, a scene that drops the body on a plane and runs as it stands. All files appear, or none.

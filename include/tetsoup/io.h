@@ -30,7 +30,10 @@ enum class SoupFormat { Obj, Stl, Ply, Off, Gltf };
 TriangleSoup read_soup(const std::filesystem::path& path);
 
 /// The same file with polygons, texture coordinates, normals and names; triangles_of() it is what read_soup() gives,
-/// bit for bit, so an embedding of that refers to these vertices.
+/// bit for bit, so an embedding of that refers to these vertices. OBJ has all of it (several groups are one name with
+/// blanks between), glTF triangles whose object is the node's name or else the mesh's, PLY texture coordinates and
+/// normals, STL the solids' names. Texture coordinates and normals that cannot be read are left out.
+/// @throws IoError  as read_soup() does, or if the names, repeated for every part, took far more than the file.
 RenderMesh read_render_mesh(const std::filesystem::path& path);
 
 /// Its faces cut into fans, as read_soup() does.
@@ -38,8 +41,23 @@ TriangleSoup triangles_of(const RenderMesh& mesh);
 /// The face of every triangle of triangles_of().
 std::vector<std::uint32_t> triangle_faces(const RenderMesh& mesh);
 
+enum class PartKind { Object, Group, Material };
+struct PartName {
+  PartKind kind = PartKind::Object;
+  std::string name;
+  std::size_t triangle_count = 0;
+};
+/// The names that faces have: objects, groups, materials, each in the order of the file. One name may be of two kinds.
+std::vector<PartName> part_names(const RenderMesh& mesh);
+
+/// Writes polygons, texture coordinates, normals and names as OBJ; read_render_mesh() of it gives the mesh again, but
+/// for blanks in names. With other vertices it is the same surface deformed. Atomic.
+/// @throws InvalidInput  if sizes do not fit together; IoError, also if the extension is not .obj.
+void write_render_mesh(const std::filesystem::path& path, const RenderMesh& mesh);
+
 /// The same from memory; `name` stands for the path in errors. External buffers of a .gltf are not followed.
 TriangleSoup parse_soup(std::span<const std::byte> bytes, SoupFormat format, std::string_view name);
+RenderMesh parse_render_mesh(std::span<const std::byte> bytes, SoupFormat format, std::string_view name);
 
 enum class SurfaceFormat { Obj, StlBinary, Ply };
 
@@ -77,8 +95,11 @@ struct TetFormatInfo {
 };
 const std::vector<TetFormatInfo>& tet_formats();
 
-/// Format by extension: .msh is 4.1; throws IoError listing the known extensions.
+/// Format by extension: .msh is 4.1, .obj the boundary; throws IoError listing the known extensions.
 TetFormat tet_format_of(const std::filesystem::path& path);
+
+/// All files that write_tets() may write: three of TetGen's, Vega's list of pins beside its mesh.
+std::vector<std::filesystem::path> tet_files(const std::filesystem::path& path, TetFormat format);
 
 /// Writes a mesh; format by extension unless given. Atomic: the file (or files) appear whole or not at all, and an
 /// existing one stays as it was if anything fails.
@@ -93,13 +114,17 @@ std::vector<std::filesystem::path> write_tets(const std::filesystem::path& path,
 /// Writes an embedding by extension: .npz (arrays `tets` (N) int32, `weights` (N, 4) and `distances` (N) float32) or
 /// .embedding (docs/FORMATS.md has its layout). Atomic.
 void write_embedding(const std::filesystem::path& path, const Embedding& embedding);
-/// Reads either back. @throws IoError
+/// Reads either back, told from its first bytes; the report counts what the distances tell.
+/// @throws IoError  if the file is not what it says: arrays that are missing, cut short, or not of as many points.
 Embedding read_embedding(const std::filesystem::path& path);
+/// The same from memory; `name` stands for the path in errors.
+Embedding parse_embedding(std::span<const std::byte> bytes, std::string_view name);
 
-/// Reads a tet mesh in any of the formats above that holds tets; other cells are skipped.
+/// Reads a tet mesh: MSH, VTK, VTU, MEDIT, TetGen or NPZ; other cells are skipped.
 TetMesh read_tets(const std::filesystem::path& path);
 
-/// True if the path names, by extension and first bytes, a file that read_tets() takes rather than read_soup().
+/// True if the path names, by extension and first bytes, a file of tets, which read_tets() takes, or refuses with the
+/// reason, rather than read_soup().
 bool is_tet_file(const std::filesystem::path& path);
 
 // --- Fields and pictures --------------------------------------------------------------------------------------------

@@ -17,6 +17,9 @@ struct Material {
   double metres_per_unit = 1;  ///< Length of the mesh's unit, > 0: 0.001 for millimetres.
 };
 
+/// @throws InvalidInput  if a number is out of range.
+void check_material(const Material& material);
+
 /// One thing that simulations suffer from, measured.
 struct ReadinessCheck {
   std::string_view name;   ///< For machines: "min_dihedral_deg".

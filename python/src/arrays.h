@@ -21,6 +21,10 @@ namespace nb = nanobind;
 using PointsIn = nb::ndarray<const float, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using FacesIn = nb::ndarray<const std::uint32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using TetsIn = nb::ndarray<const std::uint32_t, nb::shape<-1, 4>, nb::c_contig, nb::device::cpu>;
+using TexcoordsIn = nb::ndarray<const float, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+using WeightsIn = nb::ndarray<const float, nb::shape<-1, 4>, nb::c_contig, nb::device::cpu>;
+using IndicesIn = nb::ndarray<const std::uint32_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+using RealsIn = nb::ndarray<const float, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
 // What goes out; a const element makes the array read-only.
 template <class T, int Columns>
@@ -53,6 +57,19 @@ Rows<T, Columns> owned_rows(std::vector<Row> rows) {
   return rows_of<T, Columns>(shown, owner_of(std::move(kept)));
 }
 
+/// The same for vectors of numbers.
+template <class T, class Stored>
+List<const T> list_of(const std::vector<Stored>& values, nb::handle owner) {
+  static_assert(sizeof(T) == sizeof(Stored));
+  return List<const T>(reinterpret_cast<const T*>(values.data()), {values.size()}, owner);
+}
+template <class T, class Stored>
+List<const T> owned_list(std::vector<Stored> values) {
+  auto kept = std::make_unique<std::vector<Stored>>(std::move(values));
+  const std::vector<Stored>& shown = *kept;
+  return list_of<T>(shown, owner_of(std::move(kept)));
+}
+
 /// Values of a grid, x fastest, as an array (z, y, x) of T, which may be a type of the same size.
 template <class T, class Stored>
 Volume<T> owned_volume(std::vector<Stored> values, const GridFrame& frame) {
@@ -69,6 +86,13 @@ std::vector<Row> copy_rows(const Array& array) {
   static_assert(sizeof(Row) % sizeof(*array.data()) == 0);
   const Row* const rows = reinterpret_cast<const Row*>(array.data());
   return array.shape(0) == 0 ? std::vector<Row>() : std::vector<Row>(rows, rows + array.shape(0));
+}
+
+/// Rows from Python where they lie, for as long as the array is held.
+template <class Row, class Array>
+std::span<const Row> span_of(const Array& array) {
+  static_assert(sizeof(Row) % sizeof(*array.data()) == 0);
+  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
 }
 
 inline TriangleSoup copy_soup(const PointsIn& vertices, const FacesIn& faces) {

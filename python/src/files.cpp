@@ -6,26 +6,11 @@
 #include "bindings.h"
 #include "progress.h"
 #include "records.h"
-#include "tetsoup/error.h"
 #include "tetsoup/io.h"
 
 namespace tetsoup::python {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-std::optional<TetFormat> format_named(const std::optional<std::string>& name) {
-  if (!name) return {};
-  std::string known;
-  for (const TetFormatInfo& info : tet_formats()) {
-    if (info.name == *name) return info.format;
-    known += (known.empty() ? "'" : ", '") + info.name + "'";
-  }
-  throw InvalidInput("format = '" + *name + "', must be one of " + known);
-}
-
-}  // namespace
 
 void bind_files(nb::module_& m) {
   m.def("read_soup", [](const fs::path& path) {
@@ -35,13 +20,6 @@ void bind_files(nb::module_& m) {
   });
   m.def("read_tets", [](const fs::path& path) { return call_unlocked([&] { return read_tets(path); }); });
   m.def("is_tet_file", [](const fs::path& path) { return call_unlocked([&] { return is_tet_file(path); }); });
-  m.def(
-      "write_tets",
-      [](const fs::path& path, const TetMesh& mesh, const std::optional<std::string>& format) {
-        const std::optional<TetFormat> chosen = format_named(format);
-        return call_unlocked([&] { return write_tets(path, mesh, chosen); });
-      },
-      nb::arg("path"), nb::arg("mesh"), nb::arg("format").none());
   m.def("tet_formats", [] {
     std::map<std::string, std::string> formats;
     for (const TetFormatInfo& info : tet_formats()) formats[info.name] = info.summary;

@@ -1,6 +1,7 @@
 // Tet meshes and cleaned soups.
 #include "arrays.h"
 #include "bindings.h"
+#include "materials.h"
 #include "progress.h"
 #include "records.h"
 #include "tetsoup/quality.h"
@@ -65,11 +66,7 @@ void bind_meshes(nb::module_& m) {
           "readiness",
           [](const TetMesh& self, const Quality& quality, std::optional<double> density, std::optional<double> young,
              std::optional<double> poisson, std::optional<double> metres_per_unit) {
-            Material material;
-            material.density = density.value_or(material.density);
-            material.young = young.value_or(material.young);
-            material.poisson = poisson.value_or(material.poisson);
-            material.metres_per_unit = metres_per_unit.value_or(material.metres_per_unit);
+            const Material material = material_of(density, young, poisson, metres_per_unit);
             return call_unlocked([&] { return assess_readiness(self, quality, material); });
           },
           nb::arg("quality"), nb::arg("density").none(), nb::arg("young").none(), nb::arg("poisson").none(),

@@ -52,6 +52,8 @@ NB_MODULE(_core, m) {
   bind_meshes(m);
   bind_stages(m);
   bind_pipeline(m);
+  bind_surfaces(m);
+  bind_models(m);
   bind_files(m);
   bind_samples(m);
   m.def("default_options", [](const std::string& stage) { return describe_options({}, stage); });

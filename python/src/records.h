@@ -48,9 +48,7 @@ inline auto python_value(const std::array<int, 3>& v) {
 }
 
 inline auto python_value(const std::vector<float>& values) {
-  auto copy = std::make_unique<std::vector<float>>(values);
-  const std::vector<float>& shown = *copy;
-  return List<const float>(shown.data(), {shown.size()}, owner_of(std::move(copy)));
+  return owned_list<float>(values);
 }
 
 /// The record as a dict, records inside it likewise.

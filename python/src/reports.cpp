@@ -1,5 +1,6 @@
 // The library's reports, one line a number.
 #include "records.h"
+#include "tetsoup/embed.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/readiness.h"
 
@@ -161,6 +162,18 @@ void bind_readiness(nb::module_& m) {
       .field("stable_time_step", &R::stable_time_step, "s, of explicit integration; 0 without a positive tet.");
 }
 
+void bind_embed_report(nb::module_& m) {
+  using R = EmbedReport;
+  Record<R>(m, "EmbedReport", "Where embedded points lie.")
+      .field("inside", &R::inside, "Points in the mesh, within rounding.")
+      .field("outside", &R::outside, "Points beyond it, hung on the nearest tet.")
+      .field("drawn_closer", &R::drawn_closer, "Those of them that max_extrapolation has drawn towards the mesh.")
+      .field("other_copy", &R::other_copy,
+             "Points that another copy of the tets is nearer to than that of their piece.")
+      .field("non_finite", &R::non_finite, "Points that are none: hung on the first vertex of the first tet.")
+      .field("max_distance", &R::max_distance, "Of the points outside from the mesh, in its unit.");
+}
+
 }  // namespace
 
 void bind_reports(nb::module_& m) {
@@ -170,6 +183,7 @@ void bind_reports(nb::module_& m) {
   bind_smooth_report(m);
   bind_quality(m);
   bind_readiness(m);
+  bind_embed_report(m);
 }
 
 }  // namespace tetsoup::python

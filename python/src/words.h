@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tetsoup/pipeline.h"
+#include "tetsoup/tet_model.h"
 
 namespace tetsoup::python {
 
@@ -50,6 +51,9 @@ template <>
 inline constexpr std::array kWords<BoundaryOnly>{Word<BoundaryOnly>{"leave", BoundaryOnly::Leave},
                                                  Word<BoundaryOnly>{"remove", BoundaryOnly::Remove},
                                                  Word<BoundaryOnly>{"split", BoundaryOnly::Split}};
+template <>
+inline constexpr std::array kWords<UpAxis>{Word<UpAxis>{"x", UpAxis::X}, Word<UpAxis>{"y", UpAxis::Y},
+                                           Word<UpAxis>{"z", UpAxis::Z}};
 template <>
 inline constexpr std::array kWords<SoupClass>{
     Word<SoupClass>{"closed", SoupClass::Closed}, Word<SoupClass>{"open", SoupClass::Open},

@@ -154,7 +154,7 @@ def test_meshes_are_saved_read_and_pickled(cube, tmp_path):
     for extension in (".msh", ".vtk", ".vtu", ".mesh"):
         assert mesh.save(tmp_path / f"cube{extension}") == [tmp_path / f"cube{extension}"]
         assert same(mesh, tetsoup.read_tets(tmp_path / f"cube{extension}"))
-    assert len(mesh.save(tmp_path / "cube.node")) == 2
+    assert len(mesh.save(tmp_path / "cube.node")) == 3
     mesh.save(tmp_path / "old.txt", format="msh22")
     surface = tetsoup.read(mesh.save(tmp_path / "cube.stl")[0])
     assert len(surface.faces) == len(mesh.surface)

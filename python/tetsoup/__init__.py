@@ -21,6 +21,7 @@ from tetsoup._core import (
     Cancelled,
     CleanSoup,
     DistanceField,
+    EmbedReport,
     InvalidInput,
     IoError,
     LatticeReport,
@@ -33,7 +34,9 @@ from tetsoup._core import (
     SoupReport,
     TopologyReport,
 )
+from tetsoup._embedding import Embedding, embed, read_embedding
 from tetsoup._mesh import Report, TetMesh
+from tetsoup._model import Material, Regions
 from tetsoup._progress import Progress, tqdm_progress
 from tetsoup._soup_input import Soup, as_soup
 from tetsoup._stages import (
@@ -48,6 +51,7 @@ from tetsoup._stages import (
     unsigned_distance,
     widen_distance,
 )
+from tetsoup._surface import Part, RenderMesh, read_surface
 from tetsoup.options import (
     DistanceOptions,
     LatticeOptions,
@@ -78,7 +82,7 @@ def read(path: str | os.PathLike[str]) -> Soup:
 
 
 def read_tets(path: str | os.PathLike[str]) -> TetMesh:
-    """Reads a tet mesh: .msh .vtk .vtu .mesh .node.
+    """Reads a tet mesh: .msh .vtk .vtu .mesh .npz .node.
 
     Raises:
         tetsoup.IoError: if the file cannot be read or is damaged.
@@ -142,6 +146,16 @@ def formats() -> dict[str, str]:
     return _core.tet_formats()
 
 
+def engines() -> dict[str, str]:
+    """Names of the engines that `TetMesh.save` takes, and what each is given.
+
+    Example:
+        >>> tetsoup.engines()["newton"]
+        'NumPy arrays (.npz), 0-based, positive, metres'
+    """
+    return _core.engines()
+
+
 def set_thread_count(threads: int) -> None:
     """Upper bound on the threads that everything uses from now on; 0 takes all cores. Results never depend on it.
 
@@ -168,17 +182,20 @@ def _as_soup(vertices: npt.NDArray[np.float32], faces: npt.NDArray[np.uint32]) -
 __all__ = [
     "BandScore",
     "BoundaryDistance",
-    "boundary_distance",
     "Cancelled",
     "CleanSoup",
     "DistanceField",
     "DistanceOptions",
+    "EmbedReport",
+    "Embedding",
     "InvalidInput",
     "IoError",
     "LatticeMesh",
     "LatticeOptions",
     "LatticeReport",
+    "Material",
     "MeshOptions",
+    "Part",
     "Pipeline",
     "Progress",
     "PseudoVolume",
@@ -187,6 +204,8 @@ __all__ = [
     "Quality",
     "Readiness",
     "ReadinessCheck",
+    "Regions",
+    "RenderMesh",
     "Report",
     "SmoothOptions",
     "SmoothReport",
@@ -196,13 +215,18 @@ __all__ = [
     "TetMesh",
     "TopologyReport",
     "__version__",
+    "boundary_distance",
     "classify_volume",
     "clean_soup",
     "default_options",
+    "embed",
+    "engines",
     "fill_lattice",
     "formats",
     "overlap",
     "read",
+    "read_embedding",
+    "read_surface",
     "read_tets",
     "sample",
     "sample_names",

@@ -5,16 +5,21 @@ from __future__ import annotations
 import dataclasses
 import os
 import pathlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from tetsoup import _core, _interop
+from tetsoup import _core, _interop, _model
 from tetsoup._core import InvalidInput
+from tetsoup._embedding import Embedding, embed
+from tetsoup._model import Axis, Body, Material, PartKind, Regions, make_model
 from tetsoup._soup_input import as_indices, as_points
+
+if TYPE_CHECKING:
+    from tetsoup._progress import Progress
 
 
 @dataclasses.dataclass(frozen=True)
@@ -128,24 +133,125 @@ class TetMesh:
         """
         return self._handle.readiness(self.quality, density, young, poisson, metres_per_unit)
 
-    def save(self, path: str | os.PathLike[str], format: str | None = None) -> list[pathlib.Path]:
-        """Writes a file, whole or not at all: an existing one stays as it was if anything fails.
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        format: str | None = None,
+        *,
+        engine: str | None = None,
+        name: str = "body",
+        up: Axis = "z",
+        density: float | None = None,
+        young: float | None = None,
+        poisson: float | None = None,
+        metres_per_unit: float | None = None,
+        regions: tuple[npt.ArrayLike, list[str]] | None = None,
+        materials: Mapping[str, Material] | None = None,
+        pins: Mapping[str, npt.ArrayLike] | None = None,
+        surface: Any = None,
+        embedding: Embedding | None = None,
+    ) -> list[pathlib.Path]:
+        """Writes a file, or several, whole or not at all: existing ones stay as they were if anything fails.
+
+        What a format has no place for is left out of it: docs/FORMATS.md says who has which.
 
         Args:
-            path: its extension tells the format: .msh .vtk .vtu .mesh .node, or the boundary only: .obj .stl .ply.
+            path: its extension tells the format, one of `tetsoup.formats()`; .obj .stl .ply hold the boundary only.
             format: instead, one of `tetsoup.formats()`.
+            engine: or what this one reads, in metres, and a scene beside it where there is one: one of
+                `tetsoup.engines()`. The path may leave the extension out.
+            name: of the body.
+            up: axis of the mesh that points up.
+            density, young, poisson: kg/m^3 (1000), Pa (1e5), [0, 0.5) (0.4). If any is given the scene keeps to them
+                and shortens its time step where it must; else it is as stiff as the engine's own step allows.
+            metres_per_unit: length of the mesh's unit (1); 0.001 for millimetres.
+            regions: labels (T,) integers and their names, as from `regions`.
+            materials: of regions by name, such as ``{"leaf": {"density": 300}}``; the rest is that of the body.
+            pins: vertices to be held, (n,) integers by name; see `vertices_in_box`, `vertices_below`, `vertices_near`.
+            surface: what is drawn: a `RenderMesh`, or what `embed` takes as one object.
+            embedding: where the surface's vertices lie; None: `embed(surface)`.
 
         Returns:
-            The files written; two for TetGen.
+            The files written, the mesh's first.
 
         Raises:
             tetsoup.IoError: if it cannot be written, or the extension is unknown.
+            tetsoup.InvalidInput: for an unknown engine or format, or if an array or a number is out of range.
 
         Example:
             >>> mesh.save("bunny.msh")
             [PosixPath('bunny.msh')]
+            >>> mesh.save("bunny", engine="isaac", surface="bunny.obj", pins={"feet": mesh.vertices_below(0.01)})
+            [PosixPath('bunny.usda')]
         """
-        return _core.write_tets(os.fspath(path), self._handle, format)
+        if format is not None and engine is not None:
+            raise InvalidInput("format and engine: at most one of them")
+        body = Body(
+            name, up, density, young, poisson, metres_per_unit, regions, materials, pins, surface, embedding
+        )
+        model = make_model(self, body)
+        if engine is None:
+            return _core.write_tets(os.fspath(path), model, format)
+        return _core.write_for_engine(os.fspath(path), model, engine, body.material_is_default)
+
+    def embed(
+        self,
+        surface: Any,
+        faces: Any = None,
+        *,
+        max_extrapolation: float | None = None,
+        progress: Progress | None = None,
+    ) -> Embedding:
+        """Hangs a surface's vertices on the tets: `tetsoup.embed` of this mesh, which says more.
+
+        Example:
+            >>> moved = mesh.embed("bunny.obj").deform(positions)
+        """
+        return embed(self, surface, faces, max_extrapolation=max_extrapolation, progress=progress)
+
+    def regions(self, surface: Any, by: PartKind = "material", *, progress: Progress | None = None) -> Regions:
+        """The part of the surface that is nearest to each tet.
+
+        Args:
+            surface: a `RenderMesh` or a file's name.
+            by: whose names make a region.
+
+        Returns:
+            `Regions`: labels (T,) int32 and names, in the order of the file; "" comes last and is what has no name.
+
+        Raises:
+            tetsoup.InvalidInput: for another `by`.
+
+        Example:
+            >>> labels, names = mesh.regions("tree.obj", by="material")
+            >>> mesh.save("tree", engine="sofa", regions=(labels, names), materials={"leaf": {"density": 300}})
+        """
+        return _model.regions(self, surface, by, progress)
+
+    def vertices_in_box(self, lo: Sequence[float], hi: Sequence[float]) -> npt.NDArray[np.int32]:
+        """Vertices in a box, its faces included, (n,) int32 ascending. Example: ``mesh.vertices_in_box(lo, hi)``."""
+        return _core.vertices_in_box(self._handle, _triple(lo, "lo"), _triple(hi, "hi"))
+
+    def vertices_below(self, offset: float, normal: Sequence[float] = (0, 0, 1)) -> npt.NDArray[np.int32]:
+        """Vertices with dot(normal, vertex) <= offset, (n,) int32 ascending. Example: ``mesh.vertices_below(0.1)``.
+
+        Raises:
+            tetsoup.InvalidInput: if the normal is zero or not finite.
+        """
+        return _core.vertices_below(self._handle, _triple(normal, "normal"), offset)
+
+    def vertices_near(
+        self, surface: Any, name: str, *, progress: Progress | None = None
+    ) -> npt.NDArray[np.int32]:
+        """Vertices to which faces of this object, group or material are nearest, (n,) int32 ascending.
+
+        Raises:
+            tetsoup.InvalidInput: listing the names, if none is so called.
+
+        Example:
+            >>> mesh.save("robot", engine="mujoco", pins={"hand": mesh.vertices_near("robot.obj", "hand")})
+        """
+        return _model.vertices_near(self, surface, name, progress)
 
     def to_meshio(self) -> Any:
         """A `meshio.Mesh` with one block of tetra. Example: ``mesh.to_meshio().write("bunny.xdmf")``."""
@@ -163,12 +269,33 @@ class TetMesh:
         """Registers a volume mesh with polyscope, initialised before. Example: ``mesh.to_polyscope("bunny")``."""
         return _interop.to_polyscope(self, name)
 
-    def to_usd(self, stage: Any, path: str) -> Any:
-        """Defines a `UsdGeom.TetMesh` with its surface on a stage. Example: ``mesh.to_usd(stage, "/World/Bunny")``."""
-        return _interop.to_usd(self, stage, path)
+    def to_usd(self, stage: Any, path: str, *, surface: Any = None, embedding: Embedding | None = None) -> Any:
+        """Defines a `UsdGeom.TetMesh` with its boundary on a stage.
+
+        Args:
+            surface: a `RenderMesh`, or what `embed` takes as one object: a `UsdGeom.Mesh` beside it, named as the path
+                with "_render" behind, with texture coordinates, and its embedding as primvars `tetsoup:tet` and
+                `tetsoup:weights`, as `save` writes them.
+            embedding: where its vertices lie; None: `embed(surface)`.
+
+        Returns:
+            The `UsdGeom.TetMesh`.
+
+        Example:
+            >>> mesh.to_usd(stage, "/World/Bunny", surface="bunny.obj")
+        """
+        return _interop.to_usd(self, stage, path, surface, embedding)
 
     def __repr__(self) -> str:
         return f"<tetsoup.TetMesh: {len(self.points):,} points, {len(self.tets):,} tets>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return TetMesh, (self.points, self.tets)
+
+
+def _triple(values: Sequence[float], name: str) -> tuple[float, float, float]:
+    try:
+        x, y, z = (float(value) for value in values)
+    except (TypeError, ValueError) as error:
+        raise InvalidInput(f"{name} = {values!r}, must be three numbers") from error
+    return x, y, z

@@ -42,13 +42,17 @@ def as_soup(vertices: Any, faces: Any = None) -> tuple[Points, Faces]:
 
 
 def as_points(values: Any, name: str) -> Points:
+    return as_rows(values, name, 3)
+
+
+def as_rows(values: Any, name: str, columns: int) -> Points:
     array = _as_array(values, name)
     if array.size == 0:
-        array = array.reshape(0, 3).astype(np.float32)
+        array = array.reshape(0, columns).astype(np.float32)
     if array.dtype.kind not in "fiu":
         raise _core.InvalidInput(f"{name} has the type {array.dtype}, must be real numbers")
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise _core.InvalidInput(f"{name} has the shape {array.shape}, must be (N, 3)")
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise _core.InvalidInput(f"{name} has the shape {array.shape}, must be (N, {columns})")
     with np.errstate(over="ignore"):  # beyond single precision is infinite, which the library counts
         return np.ascontiguousarray(array, dtype=np.float32)
 
@@ -69,6 +73,26 @@ def as_indices(values: Any, name: str, columns: int) -> Faces:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
+def as_index_list(values: Any, name: str) -> Faces:
+    """(N,) uint32."""
+    array = _as_array(values, name)
+    if array.size and array.ndim != 1:
+        raise _core.InvalidInput(f"{name} has the shape {array.shape}, must be (N,)")
+    return as_indices(array.reshape(-1, 1), name, 1).ravel()
+
+
+def as_choices(values: Any, name: str, count: int) -> Faces:
+    """(N,) uint32, each below `count`, or -1 for none."""
+    array = _as_array(values, name)
+    if array.size == 0:
+        return np.empty(0, np.uint32)
+    if array.dtype.kind not in "iu" or array.ndim != 1:
+        raise _core.InvalidInput(f"{name} has the type {array.dtype} and shape {array.shape}, must be (N,) integers")
+    if array.max() >= count or array.min() < -1:
+        raise _core.InvalidInput(f"{name} has an index out of range, must be below {count}, or -1 for none")
+    return np.ascontiguousarray(array, np.int32).view(np.uint32)
+
+
 def _as_array(values: Any, name: str) -> npt.NDArray[Any]:
     try:
         return np.asarray(values)
@@ -80,6 +104,8 @@ def _take_apart(source: Any) -> tuple[Any, Any]:
     """Vertices and faces of one object that has both."""
     if isinstance(source, (str, os.PathLike)):
         return _core.read_soup(os.fspath(source))
+    if hasattr(source, "face_sizes") and hasattr(source, "triangles"):  # a RenderMesh
+        return source.vertices, source.triangles
     if isinstance(source, (Soup, _core.CleanSoup)):
         return source.vertices, source.faces
     if hasattr(source, "extract_surface") or hasattr(source, "n_blocks"):

@@ -8,16 +8,12 @@
 
 namespace tetsoup {
 
-namespace {
-
-Triangle face_of(const TetMesh& mesh, std::uint64_t slot) {
+Triangle face_at(const TetMesh& mesh, std::uint64_t slot) {
   const Tet& tet = mesh.tets[slot / 4];
   const auto& face = kTetFaces[slot % 4];
   return {tet[static_cast<std::size_t>(face[0])], tet[static_cast<std::size_t>(face[1])],
           tet[static_cast<std::size_t>(face[2])]};
 }
-
-}  // namespace
 
 bool is_valid_tet(const Tet& tet, std::size_t vertex_count) {
   for (std::size_t i = 0; i < 4; ++i) {
@@ -35,7 +31,7 @@ std::vector<TetFace> sorted_faces(const TetMesh& mesh) {
   Groups<TetFace> by_lowest(mesh.vertices.size(), [&](const auto& put) {
     for (std::uint64_t slot = 0; slot < 4 * mesh.tets.size(); ++slot) {
       if (!is_valid[slot / 4]) continue;
-      TetFace face{face_of(mesh, slot), slot};
+      TetFace face{face_at(mesh, slot), slot};
       auto& [a, b, c] = face.corners;
       if (a > b) std::swap(a, b);
       if (b > c) std::swap(b, c);
@@ -57,16 +53,21 @@ std::size_t face_run_end(const std::vector<TetFace>& faces, std::size_t begin) {
   return end;
 }
 
-std::vector<Triangle> lone_faces(const TetMesh& mesh, const std::vector<TetFace>& faces) {
+std::vector<std::uint64_t> lone_slots(const std::vector<TetFace>& faces) {
   std::vector<std::uint64_t> slots;
   for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
     end = face_run_end(faces, begin);
     if (end - begin == 1) slots.push_back(faces[begin].slot);
   }
   std::sort(slots.begin(), slots.end());
+  return slots;
+}
+
+std::vector<Triangle> lone_faces(const TetMesh& mesh, const std::vector<TetFace>& faces) {
+  const std::vector<std::uint64_t> slots = lone_slots(faces);
   std::vector<Triangle> triangles;
   triangles.reserve(slots.size());
-  for (const std::uint64_t slot : slots) triangles.push_back(face_of(mesh, slot));
+  for (const std::uint64_t slot : slots) triangles.push_back(face_at(mesh, slot));
   return triangles;
 }
 

@@ -25,6 +25,12 @@ std::vector<TetFace> sorted_faces(const TetMesh& mesh);
 /// End of the run of faces that share their corners with `faces[begin]`.
 std::size_t face_run_end(const std::vector<TetFace>& faces, std::size_t begin);
 
+/// The slots of the faces that exactly one tet has, ascending.
+std::vector<std::uint64_t> lone_slots(const std::vector<TetFace>& faces);
+
+/// The face at a slot, counter-clockwise from outside of a positive tet.
+Triangle face_at(const TetMesh& mesh, std::uint64_t slot);
+
 /// The faces that exactly one tet has, in the order of the tets, counter-clockwise from outside of a positive tet.
 std::vector<Triangle> lone_faces(const TetMesh& mesh, const std::vector<TetFace>& faces);
 

@@ -35,6 +35,20 @@ inline double signed_volume(const TetCorners& p) {
   return signed_volume(p[0], p[1], p[2], p[3]);
 }
 
+/// Barycentric weights of a point, sum 1; not finite where the tet is flat.
+inline std::array<double, 4> barycentric(const TetCorners& p, const Vec3d& point) {
+  const Vec3d e1 = p[1] - p[0], e2 = p[2] - p[0], e3 = p[3] - p[0], x = point - p[0];
+  const Vec3d n1 = cross(e2, e3), n2 = cross(e3, e1), n3 = cross(e1, e2);
+  const double inverse = 1 / dot(e1, n1);
+  const double w1 = dot(x, n1) * inverse, w2 = dot(x, n2) * inverse, w3 = dot(x, n3) * inverse;
+  return {1 - w1 - w2 - w3, w1, w2, w3};
+}
+
+inline double least_weight(const TetCorners& p, const Vec3d& point) {
+  const auto w = barycentric(p, point);
+  return std::min({w[0], w[1], w[2], w[3]});
+}
+
 /// Cosines of the six dihedral angles, at the edges of kTetEdges; NaN where a face has no area.
 inline std::array<double, 6> dihedral_cosines(const TetCorners& p) {
   std::array<Vec3d, 4> normal;

@@ -15,6 +15,10 @@ inline Vec3 to_float(const Vec3d& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+inline bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
 inline Vec3d operator+(const Vec3d& a, const Vec3d& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }

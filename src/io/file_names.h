@@ -3,18 +3,19 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace tetsoup {
 
 std::string lower_extension(const std::filesystem::path& path);
 
-/// TetGen's two files; the path may name either or have neither extension.
-struct TetgenPair {
-  std::filesystem::path nodes, tets;
+/// TetGen's files; the path may name any of them or have none of their extensions.
+struct TetgenSet {
+  std::filesystem::path nodes, tets, faces;
 };
-TetgenPair tetgen_pair(const std::filesystem::path& path);
+TetgenSet tetgen_set(const std::filesystem::path& path);
 
 /// ".msh, .vtk, ...": what read_tets() takes, for messages.
-std::string known_tet_extensions();
+std::string readable_tet_extensions();
 
 }  // namespace tetsoup

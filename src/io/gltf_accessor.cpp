@@ -66,7 +66,7 @@ class Reader {
 
   std::vector<double> read(int type) const {
     if (accessor_->type != type) fail(where_, "holds elements of another kind than its use asks for");
-    const std::size_t components = type == TINYGLTF_TYPE_VEC3 ? 3 : 1;
+    const std::size_t components = type == TINYGLTF_TYPE_VEC3 ? 3 : type == TINYGLTF_TYPE_VEC2 ? 2 : 1;
     const std::size_t size = component_size(accessor_->componentType);
     if (size == 0) fail(where_, "has component type " + std::to_string(accessor_->componentType));
     std::vector<double> values = read_dense(components, size);

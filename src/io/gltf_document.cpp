@@ -191,6 +191,20 @@ class BufferLoader {
   std::map<std::filesystem::path, std::span<const std::byte>> files_;
 };
 
+std::vector<std::string> names_of(json& root, const char* key) {
+  std::vector<std::string> names;
+  const auto list = root.find(key);
+  if (list == root.end() || !list->is_array()) return names;
+  names.reserve(list->size());
+  for (json& object : *list) {
+    std::string& name = names.emplace_back();
+    if (!object.is_object()) continue;
+    const auto found = object.find("name");
+    if (found != object.end() && found->is_string()) name = std::move(found->get_ref<std::string&>());
+  }
+  return names;
+}
+
 /// Geometry only, without the parts of unlimited shape.
 json reduced_to_geometry(json& root) {
   json reduced = json::object();
@@ -259,6 +273,9 @@ Document read_document(const Source& source, const std::optional<std::filesystem
   const auto used = strings_of(root, "extensionsUsed");
   document.uses_draco = std::find(used.begin(), used.end(), "KHR_draco_mesh_compression") != used.end();
   BufferLoader(folder, container.binary, document).load_all(root);
+  document.node_names = names_of(root, "nodes");
+  document.mesh_names = names_of(root, "meshes");
+  document.material_names = names_of(root, "materials");
   const json reduced = reduced_to_geometry(root);
   check_object_count(source, reduced, container.text.size());
   load_model(source, reduced, document.model);

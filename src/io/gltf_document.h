@@ -17,7 +17,8 @@ struct Document {
   std::size_t file_bytes = 0;  ///< External buffers included.
   tinygltf::Model model;       ///< Scenes, nodes, meshes, accessors, buffer views; nothing else is filled in.
   bool uses_draco = false;
-  std::vector<std::span<const std::byte>> buffers;  ///< Into the source or into `owned`.
+  std::vector<std::string> node_names, mesh_names, material_names;  ///< Empty where there is none.
+  std::vector<std::span<const std::byte>> buffers;                  ///< Into the source or into `owned`.
   std::deque<std::vector<std::byte>> owned;
 };
 

@@ -19,6 +19,11 @@ void append_shortest(std::string& text, Real value) {
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
+void append_digits(std::string& text, double value, int count) {
+  char digits[48];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, count).ptr);
+}
+
 float out_of_range_value(std::string_view word) {
   double wide = 0;
   const auto result = std::from_chars(word.data(), word.data() + word.size(), wide);
@@ -38,14 +43,17 @@ bool parse_plain(std::string_view word, float& value) {
 
 #else
 
-template <class Real>
-void append_shortest(std::string& text, Real value) {
+void append_digits(std::string& text, double value, int count) {
   char digits[48];
-  const int length =
-      std::snprintf(digits, sizeof digits, "%.*g", std::numeric_limits<Real>::max_digits10, static_cast<double>(value));
+  const int length = std::snprintf(digits, sizeof digits, "%.*g", count, value);
   for (char* c = digits; c != digits + length; ++c)
     if (*c == ',') *c = '.';
   text.append(digits, static_cast<std::size_t>(length));
+}
+
+template <class Real>
+void append_shortest(std::string& text, Real value) {
+  append_digits(text, static_cast<double>(value), std::numeric_limits<Real>::max_digits10);
 }
 
 bool parse_plain(std::string_view word, float& value) {
@@ -61,6 +69,19 @@ bool parse_plain(std::string_view word, float& value) {
 }  // namespace
 
 void append_number(std::string& text, double value) {
+  append_shortest(text, value);
+}
+
+void append_number_within(std::string& text, double value, std::size_t most) {
+  const std::size_t start = text.size();
+  append_number(text, value);
+  for (int digits = std::numeric_limits<double>::digits10; digits > 0 && text.size() - start > most; --digits) {
+    text.resize(start);
+    append_digits(text, value, digits);
+  }
+}
+
+void append_float(std::string& text, float value) {
   append_shortest(text, value);
 }
 

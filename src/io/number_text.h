@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <concepts>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,12 @@ void append_number(std::string& text, double value);
 inline void append_number(std::string& text, float value) {
   append_number(text, static_cast<double>(value));
 }
+
+/// The same in at most `most` characters, 12 or more, for readers of fixed columns: with fewer digits where it must be.
+void append_number_within(std::string& text, double value, std::size_t most);
+
+/// The float's own shortest decimals, for files whose readers read floats.
+void append_float(std::string& text, float value);
 
 template <std::integral Integer>
 void append_number(std::string& text, Integer value) {

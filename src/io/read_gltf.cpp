@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "base/vec.h"
 #include "io/gltf_document.h"
+#include "tetsoup/error.h"
 
 namespace tetsoup::readers {
 namespace {
@@ -21,6 +23,16 @@ struct Affine {
       return static_cast<float>(rows[r][0] * x + rows[r][1] * y + rows[r][2] * z + rows[r][3]);
     };
     return {row(0), row(1), row(2)};
+  }
+
+  /// The unit normal of what the map makes of a plane with this normal; zero if there is none.
+  Vec3 apply_to_normal(const Vec3d& normal) const {
+    const auto row = [&](std::size_t r) { return Vec3d{rows[r][0], rows[r][1], rows[r][2]}; };
+    const std::array<Vec3d, 3> cofactors{cross(row(1), row(2)), cross(row(2), row(0)), cross(row(0), row(1))};
+    const double sign = dot(row(0), cofactors[0]) < 0 ? -1 : 1;
+    const Vec3d moved{dot(cofactors[0], normal), dot(cofactors[1], normal), dot(cofactors[2], normal)};
+    const double size = length(moved);
+    return size > 0 && std::isfinite(size) ? to_float(moved * (sign / size)) : Vec3{};
   }
 };
 
@@ -65,6 +77,7 @@ Affine local_transform(const tinygltf::Node& node) {
 struct Instance {
   std::size_t mesh;
   Affine to_world;
+  std::string name;  ///< The node's, or else the mesh's.
 };
 
 /// The nodes a scene starts from; without scenes, those that are nobody's children.
@@ -92,7 +105,7 @@ std::vector<Instance> find_instances(const Document& document) {
   const tinygltf::Model& model = document.model;
   std::vector<Instance> instances;
   if (model.nodes.empty()) {
-    for (std::size_t i = 0; i < model.meshes.size(); ++i) instances.push_back({i, {}});
+    for (std::size_t i = 0; i < model.meshes.size(); ++i) instances.push_back({i, {}, document.mesh_names[i]});
     return instances;
   }
   std::vector<bool> seen(model.nodes.size(), false);
@@ -113,7 +126,9 @@ std::vector<Instance> find_instances(const Document& document) {
     const Affine to_world = parent * local_transform(node);
     if (node.mesh >= 0) {
       if (static_cast<std::size_t>(node.mesh) >= model.meshes.size()) fail(where, "shows a mesh that does not exist");
-      instances.push_back({static_cast<std::size_t>(node.mesh), to_world});
+      const auto mesh = static_cast<std::size_t>(node.mesh);
+      const std::string& name = document.node_names[i];
+      instances.push_back({mesh, to_world, name.empty() ? document.mesh_names[mesh] : name});
     }
     push(node.children, to_world);
   }
@@ -121,40 +136,44 @@ std::vector<Instance> find_instances(const Document& document) {
 }
 
 /// Appends the mesh of one instance after another, within limits: instances can multiply a small file at will.
-class SoupBuilder {
+template <class Sink>
+class SurfaceBuilder {
  public:
-  explicit SoupBuilder(const Document& document) : document_(document), most_(kFreeElements + document.file_bytes) {}
+  SurfaceBuilder(const Document& document, Sink& sink)
+      : document_(document), most_(kFreeElements + document.file_bytes), sink_(sink) {}
 
   void add(const Instance& instance) {
     first_of_accessor_.clear();
+    first_of_attribute_.clear();
+    if constexpr (Sink::kDetails) sink_.set_object(instance.name);
     const auto& primitives = document_.model.meshes[instance.mesh].primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       where_ = document_.name + ": mesh " + std::to_string(instance.mesh) + ", primitive " + std::to_string(i);
       add_primitive(primitives[i], instance.to_world);
     }
   }
-  TriangleSoup take() { return std::move(soup_); }
 
  private:
   // Vertices, and triangles, that instances may add to what the file itself can hold: 8 million take 0.2 GB.
   static constexpr std::size_t kFreeElements = 8'000'000;
 
-  struct Vertices {
+  struct Range {
     std::size_t first = 0, count = 0;
   };
 
+  bool has_room(std::size_t present, std::size_t added) const { return added <= most_ && present <= most_ - added; }
   void check_room(std::size_t present, std::size_t added, const char* what) const {
-    if (added <= most_ && present <= most_ - added) return;
+    if (has_room(present, added)) return;
     fail(document_.name, "its instances add up to more than " + std::to_string(most_) + " " + what);
   }
 
   /// Primitives of a mesh often share their vertices.
-  Vertices add_vertices(int accessor, const Affine& to_world) {
+  Range add_vertices(int accessor, const Affine& to_world) {
     if (const auto known = first_of_accessor_.find(accessor); known != first_of_accessor_.end()) return known->second;
     const std::vector<double> p = gltf::read_accessor(document_, accessor, TINYGLTF_TYPE_VEC3);
-    const Vertices added{soup_.vertices.size(), p.size() / 3};
+    const Range added{sink_.vertex_count(), p.size() / 3};
     check_room(added.first, added.count, "vertices");
-    for (std::size_t i = 0; i < p.size(); i += 3) soup_.vertices.push_back(to_world.apply(p[i], p[i + 1], p[i + 2]));
+    for (std::size_t i = 0; i < p.size(); i += 3) sink_.add_vertex(to_world.apply(p[i], p[i + 1], p[i + 2]));
     return first_of_accessor_[accessor] = added;
   }
 
@@ -164,24 +183,36 @@ class SoupBuilder {
     if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN) fail(where_, "is of an unknown mode");
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return;
-    const Vertices vertices = add_vertices(position->second, to_world);
+    const Range vertices = add_vertices(position->second, to_world);
     const std::vector<std::uint32_t> corners = read_corners(primitive, vertices);
-    check_room(soup_.triangles.size(), corners.size(), "triangles");
+    check_room(sink_.face_count(), corners.size(), "triangles");
+    if constexpr (Sink::kDetails) {
+      const std::size_t first_corner = sink_.corner_count();
+      set_material(primitive.material);
+      add_triangles(mode, corners);
+      add_texcoords(primitive, vertices, first_corner);
+      add_normals(primitive, vertices, first_corner, to_world);
+    } else {
+      add_triangles(mode, corners);
+    }
+  }
+
+  void add_triangles(int mode, const std::vector<std::uint32_t>& corners) {
     if (mode == TINYGLTF_MODE_TRIANGLES) {
       for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-        soup_.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+        sink_.add_triangle(corners[i], corners[i + 1], corners[i + 2]);
       }
     } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
-      Strip strip(soup_.triangles);
+      Strip<Sink> strip(sink_);
       for (const std::uint32_t corner : corners) strip.add(corner);
     } else {
-      Fan fan(soup_.triangles);
+      Fan<Sink> fan(sink_);
       for (const std::uint32_t corner : corners) fan.add(corner);
     }
   }
 
   /// An index beyond the primitive's own vertices must not reach the next one's.
-  std::vector<std::uint32_t> read_corners(const tinygltf::Primitive& primitive, const Vertices& vertices) const {
+  std::vector<std::uint32_t> read_corners(const tinygltf::Primitive& primitive, const Range& vertices) const {
     std::vector<std::uint32_t> corners;
     const auto add = [&](double index) {
       const bool exists = index >= 0 && index < static_cast<double>(vertices.count);
@@ -198,20 +229,72 @@ class SoupBuilder {
     return corners;
   }
 
+  void set_material(int material) {
+    const auto& names = document_.material_names;
+    const bool exists = material >= 0 && static_cast<std::size_t>(material) < names.size();
+    sink_.set_material(exists ? names[static_cast<std::size_t>(material)] : std::string());
+  }
+
+  /// Adds an attribute that has something for each of the vertices, unless these primitives have it already; nothing if
+  /// it cannot be read. add_numbers() puts what it is given at `present` and behind.
+  template <class AddNumbers>
+  Range add_attribute(const tinygltf::Primitive& primitive, const char* name, int type, const Range& vertices,
+                      std::size_t present, const AddNumbers& add_numbers) {
+    const auto accessor = primitive.attributes.find(name);
+    if (accessor == primitive.attributes.end()) return {};
+    const auto [known, is_new] = first_of_attribute_.try_emplace({name, accessor->second});
+    Range& range = known->second;
+    if (!is_new) return range.count == vertices.count ? range : Range{};
+    try {
+      const std::vector<double> numbers = gltf::read_accessor(document_, accessor->second, type);
+      const std::size_t components = type == TINYGLTF_TYPE_VEC3 ? 3 : 2;
+      if (numbers.size() != components * vertices.count || !has_room(present, vertices.count)) return {};
+      add_numbers(numbers);
+      return range = {present, vertices.count};
+    } catch (const IoError&) {
+      return {};
+    }
+  }
+
+  /// glTF's v runs downwards.
+  void add_texcoords(const tinygltf::Primitive& primitive, const Range& vertices, std::size_t first_corner) {
+    const Range range =
+        add_attribute(primitive, "TEXCOORD_0", TINYGLTF_TYPE_VEC2, vertices, sink_.texcoord_count(),
+                      [&](const std::vector<double>& uv) {
+                        for (std::size_t i = 0; i < uv.size(); i += 2)
+                          sink_.add_texcoord({static_cast<float>(uv[i]), static_cast<float>(1 - uv[i + 1])});
+                      });
+    if (range.count > 0) sink_.take_vertex_texcoords(first_corner, vertices.first, range.count, range.first);
+  }
+
+  void add_normals(const tinygltf::Primitive& primitive, const Range& vertices, std::size_t first_corner,
+                   const Affine& to_world) {
+    const Range range = add_attribute(primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices, sink_.normal_count(),
+                                      [&](const std::vector<double>& n) {
+                                        for (std::size_t i = 0; i < n.size(); i += 3)
+                                          sink_.add_normal(to_world.apply_to_normal({n[i], n[i + 1], n[i + 2]}));
+                                      });
+    if (range.count > 0) sink_.take_vertex_normals(first_corner, vertices.first, range.count, range.first);
+  }
+
   const Document& document_;
   std::size_t most_;
   std::string where_;
-  std::map<int, Vertices> first_of_accessor_;
-  TriangleSoup soup_;
+  std::map<int, Range> first_of_accessor_;
+  std::map<std::pair<std::string_view, int>, Range> first_of_attribute_;
+  Sink& sink_;
 };
 
 }  // namespace
 
-TriangleSoup read_gltf(const Source& source, const std::optional<std::filesystem::path>& folder) {
+template <class Sink>
+void read_gltf(const Source& source, const std::optional<std::filesystem::path>& folder, Sink& sink) {
   const Document document = gltf::read_document(source, folder);
-  SoupBuilder builder(document);
+  SurfaceBuilder<Sink> builder(document, sink);
   for (const Instance& instance : find_instances(document)) builder.add(instance);
-  return builder.take();
 }
+
+template void read_gltf(const Source&, const std::optional<std::filesystem::path>&, SoupSink&);
+template void read_gltf(const Source&, const std::optional<std::filesystem::path>&, MeshSink&);
 
 }  // namespace tetsoup::readers

@@ -42,30 +42,33 @@ std::size_t read_count(TextScanner& text, const std::string& items) {
   return static_cast<std::size_t>(count);
 }
 
-void read_vertices(TextScanner& text, std::size_t count, std::vector<Vec3>& vertices) {
+template <class Sink>
+void read_vertices(TextScanner& text, std::size_t count, Sink& sink) {
   const auto coordinate = [&] {
     text.skip_space_and_comments();
     return static_cast<float>(text.number());
   };
-  vertices.reserve(count);
+  sink.reserve_vertices(count);
   for (std::size_t i = 0; i < count; ++i) {
     const float x = coordinate(), y = coordinate(), z = coordinate();
-    vertices.push_back({x, y, z});
+    sink.add_vertex({x, y, z});
     text.skip_line();
   }
 }
 
-void read_faces(TextScanner& text, std::size_t count, std::vector<Triangle>& triangles) {
-  triangles.reserve(count);
+template <class Sink>
+void read_faces(TextScanner& text, std::size_t count, Sink& sink) {
+  sink.reserve_faces(count);
   for (std::size_t i = 0; i < count; ++i) {
     text.skip_space_and_comments();
     const std::int64_t corner_count = text.integer();
     if (corner_count < 0) text.fail("the number of corners is negative");
-    Fan fan(triangles);
+    typename Sink::Polygon polygon(sink);
     for (std::int64_t c = 0; c < corner_count; ++c) {
       text.skip_space_and_comments();
-      fan.add(vertex_index(text.integer()));
+      polygon.add(vertex_index(text.integer()));
     }
+    polygon.finish();
     text.skip_line();
   }
 }
@@ -79,7 +82,8 @@ bool is_off(std::span<const std::byte> bytes) {
   return classify(text.word()).known;
 }
 
-TriangleSoup read_off(const Source& source) {
+template <class Sink>
+void read_off(const Source& source, Sink& sink) {
   constexpr std::size_t kVertexBytes = 6, kFaceBytes = 2;  // of the shortest lines, "0 0 0" and "0"
   TextScanner text(source);
   text.skip_space_and_comments();
@@ -91,10 +95,11 @@ TriangleSoup read_off(const Source& source) {
     text.fail("the header promises " + std::to_string(vertex_count) + " vertices and " + std::to_string(face_count) +
               " faces, more than the file has room for");
   }
-  TriangleSoup soup;
-  read_vertices(text, vertex_count, soup.vertices);
-  read_faces(text, face_count, soup.triangles);
-  return soup;
+  read_vertices(text, vertex_count, sink);
+  read_faces(text, face_count, sink);
 }
+
+template void read_off(const Source&, SoupSink&);
+template void read_off(const Source&, MeshSink&);
 
 }  // namespace tetsoup::readers

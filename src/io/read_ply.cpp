@@ -1,6 +1,8 @@
-// PLY, text and binary of both orders: vertices, faces and triangle strips; all other elements are passed over.
+// PLY, text and binary of both orders: vertices with texture coordinates and normals, faces and triangle
+// strips; all other elements are passed over.
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "io/load_bytes.h"
 #include "io/ply_header.h"
@@ -111,22 +113,65 @@ void skip_property(Body& body, const Property& property) {
   body.skip(property.type, property.count_type ? body.list_length(property) : 1);
 }
 
-template <class Body>
-void read_vertices(Body& body, const Element& element, std::vector<Vec3>& vertices) {
-  vertices.reserve(vertices.size() + element.count);
+struct VertexRecord {
+  Vec3 position, normal;
+  Vec2 texcoord;
+
+  /// Where a property's number goes; nowhere: it is passed over.
+  float* place_of(const Property& property) {
+    if (property.count_type) return nullptr;
+    const std::pair<std::string_view, float*> places[] = {
+        {"x", &position.x}, {"y", &position.y}, {"z", &position.z},         {"nx", &normal.x},
+        {"ny", &normal.y},  {"nz", &normal.z},  {"s", &texcoord.x},         {"t", &texcoord.y},
+        {"u", &texcoord.x}, {"v", &texcoord.y}, {"texture_u", &texcoord.x}, {"texture_v", &texcoord.y}};
+    for (const auto& [name, place] : places)
+      if (property.name == name) return place;
+    return nullptr;
+  }
+};
+
+/// What some vertices of the file have; the others then have zeros.
+struct VertexDetails {
+  bool texcoords = false, normals = false;
+};
+
+bool has_number(const Element& element, std::string_view name) {
+  return std::any_of(element.properties.begin(), element.properties.end(),
+                     [&](const Property& p) { return p.name == name && !p.count_type; });
+}
+
+VertexDetails details_of(const Header& header) {
+  VertexDetails details;
+  for (const Element& element : header.elements) {
+    if (element.name != "vertex") continue;
+    const auto has = [&](std::string_view name) { return has_number(element, name); };
+    details.normals = details.normals || (has("nx") && has("ny") && has("nz"));
+    details.texcoords =
+        details.texcoords || (has("s") && has("t")) || (has("u") && has("v")) || (has("texture_u") && has("texture_v"));
+  }
+  return details;
+}
+
+template <class Body, class Sink>
+void read_vertices(Body& body, const Element& element, [[maybe_unused]] VertexDetails details, Sink& sink) {
+  VertexRecord record;
+  std::vector<float*> places;
+  for (const Property& property : element.properties) places.push_back(record.place_of(property));
+  sink.reserve_vertices(element.count);
   for (std::uint64_t i = 0; i < element.count; ++i) {
-    Vec3 vertex;
-    for (const Property& property : element.properties) {
-      if (property.count_type || property.name.size() != 1) {
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      const Property& property = element.properties[p];
+      if (places[p]) {
+        *places[p] = static_cast<float>(body.number(property.type));
+      } else {
         skip_property(body, property);
-        continue;
       }
-      const auto value = static_cast<float>(body.number(property.type));
-      if (property.name[0] == 'x') vertex.x = value;
-      if (property.name[0] == 'y') vertex.y = value;
-      if (property.name[0] == 'z') vertex.z = value;
     }
-    vertices.push_back(vertex);
+    sink.add_vertex(record.position);
+    if constexpr (Sink::kDetails) {
+      if (details.texcoords) sink.add_texcoord(record.texcoord);
+      if (details.normals) sink.add_normal(record.normal);
+    }
   }
 }
 
@@ -134,33 +179,34 @@ bool is_corner_list(const Property& property) {
   return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-template <class Body>
-void read_faces(Body& body, const Element& element, std::vector<Triangle>& triangles) {
-  triangles.reserve(triangles.size() + element.count);
+template <class Body, class Sink>
+void read_faces(Body& body, const Element& element, Sink& sink) {
+  sink.reserve_faces(element.count);
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (const Property& property : element.properties) {
       if (!is_corner_list(property)) {
         skip_property(body, property);
         continue;
       }
-      Fan fan(triangles);
+      typename Sink::Polygon polygon(sink);
       for (std::size_t left = body.list_length(property); left > 0; --left) {
-        fan.add(vertex_index(body.number(property.type)));
+        polygon.add(vertex_index(body.number(property.type)));
       }
+      polygon.finish();
     }
   }
 }
 
 /// A negative index ends a strip.
-template <class Body>
-void read_strips(Body& body, const Element& element, std::vector<Triangle>& triangles) {
+template <class Body, class Sink>
+void read_strips(Body& body, const Element& element, Sink& sink) {
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (const Property& property : element.properties) {
       if (!is_corner_list(property)) {
         skip_property(body, property);
         continue;
       }
-      Strip strip(triangles);
+      Strip<Sink> strip(sink);
       for (std::size_t left = body.list_length(property); left > 0; --left) {
         const double index = body.number(property.type);
         if (index < 0) {
@@ -173,42 +219,40 @@ void read_strips(Body& body, const Element& element, std::vector<Triangle>& tria
   }
 }
 
-template <class Body>
-TriangleSoup read_body(Body body, const Header& header) {
-  TriangleSoup soup;
+template <class Body, class Sink>
+void read_body(Body body, const Header& header, Sink& sink) {
+  const VertexDetails details = details_of(header);
   for (const Element& element : header.elements) {
     if (element.count == 0 || element.properties.empty()) continue;
     body.expect_room(element);
     if (element.name == "vertex") {
-      read_vertices(body, element, soup.vertices);
+      read_vertices(body, element, details, sink);
     } else if (element.name == "face") {
-      read_faces(body, element, soup.triangles);
+      read_faces(body, element, sink);
     } else if (element.name == "tristrips") {
-      read_strips(body, element, soup.triangles);
+      read_strips(body, element, sink);
     } else {
       for (std::uint64_t i = 0; i < element.count; ++i) {
         for (const Property& property : element.properties) skip_property(body, property);
       }
     }
   }
-  return soup;
+  if constexpr (Sink::kDetails) {
+    if (details.texcoords) sink.take_vertex_texcoords(0, 0, sink.vertex_count(), 0);
+    if (details.normals) sink.take_vertex_normals(0, 0, sink.vertex_count(), 0);
+  }
 }
 
 void check_elements(const Source& source, const Header& header) {
   bool has_vertices = false;
   for (const Element& element : header.elements) {
-    const auto has = [&](auto&& wanted) {
-      return std::any_of(element.properties.begin(), element.properties.end(), wanted);
-    };
-    const auto has_coordinate = [&](std::string_view name) {
-      return has([&](const Property& p) { return p.name == name && !p.count_type; });
-    };
     if (element.name == "vertex") {
       has_vertices = true;
-      if (!has_coordinate("x") || !has_coordinate("y") || !has_coordinate("z")) {
+      if (!has_number(element, "x") || !has_number(element, "y") || !has_number(element, "z")) {
         fail_at_line(source.name, element.line, "the vertices have no properties x, y and z");
       }
-    } else if ((element.name == "face" || element.name == "tristrips") && element.count > 0 && !has(is_corner_list)) {
+    } else if ((element.name == "face" || element.name == "tristrips") && element.count > 0 &&
+               std::none_of(element.properties.begin(), element.properties.end(), is_corner_list)) {
       fail_at_line(source.name, element.line, in_quotes(element.name) + " has no list property vertex_indices");
     }
   }
@@ -217,11 +261,18 @@ void check_elements(const Source& source, const Header& header) {
 
 }  // namespace
 
-TriangleSoup read_ply(const Source& source) {
+template <class Sink>
+void read_ply(const Source& source, Sink& sink) {
   const Header header = read_header(source);
   check_elements(source, header);
-  if (header.encoding == Encoding::Ascii) return read_body(TextBody(source, header), header);
-  return read_body(BinaryBody(source, header), header);
+  if (header.encoding == Encoding::Ascii) {
+    read_body(TextBody(source, header), header, sink);
+  } else {
+    read_body(BinaryBody(source, header), header, sink);
+  }
 }
+
+template void read_ply(const Source&, SoupSink&);
+template void read_ply(const Source&, MeshSink&);
 
 }  // namespace tetsoup::readers

@@ -75,48 +75,63 @@ std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path)
   return {};
 }
 
-TriangleSoup parse(const Source& source, SoupFormat format, const std::optional<std::filesystem::path>& folder) {
+template <class Sink>
+auto parse(const Source& source, SoupFormat format, const std::optional<std::filesystem::path>& folder, Sink sink) {
   if (source.bytes.empty()) fail(source.name, "is empty");
-  TriangleSoup soup;
   switch (format) {
     case SoupFormat::Obj:
-      soup = read_obj(source);
+      read_obj(source, sink);
       break;
     case SoupFormat::Stl:
-      soup = read_stl(source);
+      read_stl(source, sink);
       break;
     case SoupFormat::Ply:
-      soup = read_ply(source);
+      read_ply(source, sink);
       break;
     case SoupFormat::Off:
-      soup = read_off(source);
+      read_off(source, sink);
       break;
     case SoupFormat::Gltf:
-      soup = read_gltf(source, folder);
+      read_gltf(source, folder, sink);
       break;
   }
-  if (soup.vertices.size() >= kNoVertex) fail(source.name, "more vertices than 32-bit indices can name");
-  return soup;
+  if (sink.vertex_count() >= kNoVertex) fail(source.name, "more vertices than 32-bit indices can name");
+  return sink.take();
+}
+
+SoupFormat format_of(const std::filesystem::path& path, const Source& source) {
+  if (const auto format = format_of_content(source.bytes)) return *format;
+  if (const auto format = format_of_extension(path)) return *format;
+  const std::string extension = path.extension().string();
+  fail(source.name, (extension.empty() ? std::string("no extension") : "unknown extension '" + extension + "'") +
+                        " and unknown content; " + kKnownExtensions);
 }
 
 }  // namespace
 }  // namespace readers
 
+using readers::MeshSink, readers::Source, readers::SoupSink;
+
 TriangleSoup parse_soup(std::span<const std::byte> bytes, SoupFormat format, std::string_view name) {
-  return readers::parse({bytes, name}, format, {});
+  return readers::parse({bytes, name}, format, {}, SoupSink());
+}
+
+RenderMesh parse_render_mesh(std::span<const std::byte> bytes, SoupFormat format, std::string_view name) {
+  return readers::parse({bytes, name}, format, {}, MeshSink(name, bytes.size()));
 }
 
 TriangleSoup read_soup(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = readers::read_whole_file(path);
   const std::string name = path.string();
-  std::optional<SoupFormat> format = readers::format_of_content(bytes);
-  if (!format) format = readers::format_of_extension(path);
-  if (!format) {
-    const std::string extension = path.extension().string();
-    readers::fail(name, (extension.empty() ? std::string("no extension") : "unknown extension '" + extension + "'") +
-                            " and unknown content; " + readers::kKnownExtensions);
-  }
-  return readers::parse({bytes, name}, *format, path.parent_path());
+  const Source source{bytes, name};
+  return readers::parse(source, readers::format_of(path, source), path.parent_path(), SoupSink());
+}
+
+RenderMesh read_render_mesh(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = readers::read_whole_file(path);
+  const std::string name = path.string();
+  const Source source{bytes, name};
+  return readers::parse(source, readers::format_of(path, source), path.parent_path(), MeshSink(name, bytes.size()));
 }
 
 }  // namespace tetsoup

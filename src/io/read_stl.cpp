@@ -37,7 +37,8 @@ bool is_binary(std::span<const std::byte> bytes) {
   return std::find(probe.begin(), probe.end(), std::byte{0}) != probe.end();
 }
 
-TriangleSoup read_binary(const Source& source) {
+template <class Sink>
+void read_binary(const Source& source, Sink& sink) {
   const auto bytes = source.bytes;
   if (bytes.size() < kHeaderBytes) {
     fail_at_byte(
@@ -50,32 +51,31 @@ TriangleSoup read_binary(const Source& source) {
         source.name, kHeaderBytes - 4,
         "the header promises " + std::to_string(count) + " triangles, but the file holds " + std::to_string(available));
   }
-  TriangleSoup soup;
-  soup.vertices.reserve(3 * count);
-  soup.triangles.reserve(count);
+  sink.reserve_vertices(3 * count);
+  sink.reserve_faces(count);
   for (std::size_t t = 0; t < count; ++t) {
     const std::byte* at = bytes.data() + kHeaderBytes + t * kTriangleBytes + 3 * sizeof(float);
     const auto first = static_cast<std::uint32_t>(3 * t);
     for (int corner = 0; corner < 3; ++corner, at += 3 * sizeof(float)) {
-      soup.vertices.push_back({load<float>(at), load<float>(at + 4), load<float>(at + 8)});
+      sink.add_vertex({load<float>(at), load<float>(at + 4), load<float>(at + 8)});
     }
-    soup.triangles.push_back({first, first + 1, first + 2});
+    sink.add_triangle(first, first + 1, first + 2);
   }
-  return soup;
 }
 
 /// Words in any line layout: solid NAME (facet normal N (outer loop vertex P vertex P vertex P endloop) endfacet)
 /// endsolid NAME, again and again.
+template <class Sink>
 class TextReader {
  public:
-  explicit TextReader(const Source& source) : text_(source) {}
+  TextReader(const Source& source, Sink& sink) : text_(source), sink_(sink) {}
 
-  TriangleSoup read() {
+  void read() {
     bool in_solid = false;
     for (text_.skip_space(); !text_.at_end(); text_.skip_space()) {
       if (!in_solid) {
         expect("solid");
-        text_.skip_line();
+        read_name();
         in_solid = true;
       } else if (take("endsolid")) {
         text_.skip_line();
@@ -86,7 +86,6 @@ class TextReader {
       }
     }
     if (in_solid) text_.fail("the file ends before 'endsolid'");
-    return std::move(soup_);
   }
 
  private:
@@ -109,22 +108,29 @@ class TextReader {
     return {x, y, z};
   }
 
+  /// To the line's end.
+  void read_name() {
+    if constexpr (Sink::kDetails) sink_.set_object(joined_words(text_.rest_of_line()));
+    text_.skip_line();
+  }
+
   void read_facet() {
     expect("normal");
     point();
     expect("outer");
     expect("loop");
-    Fan fan(soup_.triangles);
+    typename Sink::Polygon polygon(sink_);
     while (take("vertex")) {
-      fan.add(vertex_index(static_cast<std::int64_t>(soup_.vertices.size())));
-      soup_.vertices.push_back(point());
+      polygon.add(vertex_index(static_cast<std::int64_t>(sink_.vertex_count())));
+      sink_.add_vertex(point());
     }
+    polygon.finish();
     expect("endloop");
     expect("endfacet");
   }
 
   TextScanner text_;
-  TriangleSoup soup_;
+  Sink& sink_;
 };
 
 }  // namespace
@@ -133,8 +139,16 @@ bool is_stl(std::span<const std::byte> bytes) {
   return begins_with_solid(bytes) || (has_exact_binary_size(bytes) && promised_triangles(bytes) > 0);
 }
 
-TriangleSoup read_stl(const Source& source) {
-  return is_binary(source.bytes) ? read_binary(source) : TextReader(source).read();
+template <class Sink>
+void read_stl(const Source& source, Sink& sink) {
+  if (is_binary(source.bytes)) {
+    read_binary(source, sink);
+  } else {
+    TextReader<Sink>(source, sink).read();
+  }
 }
+
+template void read_stl(const Source&, SoupSink&);
+template void read_stl(const Source&, MeshSink&);
 
 }  // namespace tetsoup::readers

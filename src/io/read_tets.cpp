@@ -49,7 +49,7 @@ std::string read_whole(const fs::path& path) {
   return read_bytes(path, static_cast<std::size_t>(-1));
 }
 
-enum class Content { Msh, Vtk, Vtu, Medit, Tetgen, Unknown };
+enum class Content { Msh, Vtk, Vtu, Medit, Npz, Tetgen, WrittenOnly, Unknown };
 
 Content content_of(std::string_view head) {
   const auto begins = [&](std::string_view mark) { return head.starts_with(mark); };
@@ -65,25 +65,28 @@ Content content_named(const std::string& extension) {
   if (extension == ".vtk") return Content::Vtk;
   if (extension == ".vtu") return Content::Vtu;
   if (extension == ".mesh") return Content::Medit;
-  if (extension == ".node" || extension == ".ele") return Content::Tetgen;
+  if (extension == ".npz") return Content::Npz;
+  if (extension == ".node" || extension == ".ele" || extension == ".face") return Content::Tetgen;
+  for (const TetFormatInfo& info : tet_formats())
+    if (extension == info.extension && extension != ".obj") return Content::WrittenOnly;
   return Content::Unknown;
 }
 
-TetMesh read_tetgen_pair(const fs::path& path) {
-  const TetgenPair pair = tetgen_pair(path);
-  return parse_tetgen(read_whole(pair.nodes), pair.nodes.string(), read_whole(pair.tets), pair.tets.string());
+TetMesh read_tetgen_set(const fs::path& path) {
+  const TetgenSet set = tetgen_set(path);
+  return parse_tetgen(read_whole(set.nodes), set.nodes.string(), read_whole(set.tets), set.tets.string());
 }
 
-bool names_tetgen_pair(const fs::path& path) {
+bool names_tetgen_set(const fs::path& path) {
   std::error_code error;
   return content_named(lower_extension(path)) == Content::Tetgen ||
-         (!fs::exists(path, error) && path.extension().empty() && fs::exists(tetgen_pair(path).nodes, error));
+         (!fs::exists(path, error) && path.extension().empty() && fs::exists(tetgen_set(path).nodes, error));
 }
 
 }  // namespace
 
 TetMesh read_tets(const fs::path& path) {
-  if (names_tetgen_pair(path)) return read_tetgen_pair(path);
+  if (names_tetgen_set(path)) return read_tetgen_set(path);
   const std::string bytes = read_whole(path);
   const std::string name = path.string();
   Content content = content_of(bytes);
@@ -97,14 +100,18 @@ TetMesh read_tets(const fs::path& path) {
       return parse_vtu(bytes, name);
     case Content::Medit:
       return parse_medit(bytes, name);
+    case Content::Npz:
+      return parse_npz(bytes, name);
+    case Content::WrittenOnly:
+      throw IoError(name + ": tetsoup writes such files but does not read them; it reads " + readable_tet_extensions());
     default:
       throw IoError(name + ": neither its extension nor its first bytes are those of a tet mesh (" +
-                    known_tet_extensions() + ")");
+                    readable_tet_extensions() + ")");
   }
 }
 
 bool is_tet_file(const fs::path& path) {
-  if (content_named(lower_extension(path)) != Content::Unknown || names_tetgen_pair(path)) return true;
+  if (content_named(lower_extension(path)) != Content::Unknown || names_tetgen_set(path)) return true;
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return false;
   try {

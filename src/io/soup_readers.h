@@ -1,4 +1,4 @@
-// What the readers of triangle soups share: where bytes come from, how they fail, how polygons become triangles.
+// What the readers of triangle soups share: where bytes come from, how they fail, what an index may be.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tetsoup/types.h"
+#include "io/surface_sinks.h"
 
 namespace tetsoup::readers {
 
@@ -33,12 +33,19 @@ inline std::string in_quotes(std::string_view text) {
 /// The whole file, in one go. Throws IoError with the system's reason, or if the file is empty.
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path);
 
-TriangleSoup read_obj(const Source& source);
-TriangleSoup read_stl(const Source& source);
-TriangleSoup read_ply(const Source& source);
-TriangleSoup read_off(const Source& source);
+// One reader a format, for either sink of surface_sinks.h. Geometry that cannot be read is an error; a texture
+// coordinate or a normal that cannot is left out, so that a render mesh comes of every file that a soup comes of.
+template <class Sink>
+void read_obj(const Source& source, Sink& sink);
+template <class Sink>
+void read_stl(const Source& source, Sink& sink);
+template <class Sink>
+void read_ply(const Source& source, Sink& sink);
+template <class Sink>
+void read_off(const Source& source, Sink& sink);
 /// `folder`: where external buffers may lie; none: they are refused.
-TriangleSoup read_gltf(const Source& source, const std::optional<std::filesystem::path>& folder);
+template <class Sink>
+void read_gltf(const Source& source, const std::optional<std::filesystem::path>& folder, Sink& sink);
 
 /// True if the bytes can be nothing but an STL file, by their text or by their exact size.
 bool is_stl(std::span<const std::byte> bytes);
@@ -57,48 +64,5 @@ inline std::uint32_t vertex_index(double index) {
   const auto whole = static_cast<std::uint32_t>(index);
   return static_cast<double>(whole) == index ? whole : kNoVertex;
 }
-
-/// Cuts one polygon into a fan while its corners arrive; fewer than three corners leave nothing.
-class Fan {
- public:
-  explicit Fan(std::vector<Triangle>& triangles) : triangles_(triangles) {}
-
-  void add(std::uint32_t corner) {
-    if (corner_count_ == 0) first_ = corner;
-    if (corner_count_ >= 2) triangles_.push_back({first_, previous_, corner});
-    previous_ = corner;
-    ++corner_count_;
-  }
-
- private:
-  std::vector<Triangle>& triangles_;
-  std::uint32_t first_ = 0, previous_ = 0;
-  std::size_t corner_count_ = 0;
-};
-
-/// Turns a strip into triangles of one orientation while its corners arrive.
-class Strip {
- public:
-  explicit Strip(std::vector<Triangle>& triangles) : triangles_(triangles) {}
-
-  void restart() { corner_count_ = 0; }
-  void add(std::uint32_t corner) {
-    if (corner_count_ >= 2) {
-      if (corner_count_ % 2 == 0) {
-        triangles_.push_back({older_, previous_, corner});
-      } else {
-        triangles_.push_back({previous_, older_, corner});
-      }
-    }
-    older_ = previous_;
-    previous_ = corner;
-    ++corner_count_;
-  }
-
- private:
-  std::vector<Triangle>& triangles_;
-  std::uint32_t older_ = 0, previous_ = 0;
-  std::size_t corner_count_ = 0;
-};
 
 }  // namespace tetsoup::readers

@@ -1,6 +1,7 @@
 // A cursor over text that counts lines and never leaves its bytes. Lines end in \n, \r\n or \r.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -77,6 +78,13 @@ class TextScanner {
     return {begin, static_cast<std::size_t>(at_ - begin)};
   }
 
+  /// All up to the line's end, where the cursor does not go.
+  std::string_view rest_of_line() const {
+    TextScanner ahead = *this;
+    while (!ahead.at_line_end()) ++ahead.at_;
+    return {at_, static_cast<std::size_t>(ahead.at_ - at_)};
+  }
+
   /// The number at the cursor, as a word of its own.
   double number() {
     double value = 0;
@@ -123,5 +131,10 @@ class TextScanner {
   const char* end_;
   std::size_t line_;
 };
+
+/// Words of a line with one blank between them.
+std::string joined_words(std::string_view line);
+/// As many numbers as the line begins with, up to those wanted; the others stay as they are.
+void parse_numbers(std::string_view line, std::span<float> numbers);
 
 }  // namespace tetsoup::readers

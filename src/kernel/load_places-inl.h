@@ -65,7 +65,7 @@ using Four = hn::FixedTag<float, 4>;
 
 /// A row of every fourth place, one in each block.
 template <class D>
-HWY_INLINE hn::Vec<D> load_rows(D d, const Place* places, const std::uint32_t* at) {
+HWY_INLINE hn::Vec<D> load_rows([[maybe_unused]] D d, const Place* places, const std::uint32_t* at) {
   if constexpr (hn::MaxLanes(D()) == 4) {
     return hn::Load(Four(), &places[at[0]].x);
   } else {
@@ -74,7 +74,7 @@ HWY_INLINE hn::Vec<D> load_rows(D d, const Place* places, const std::uint32_t* a
   }
 }
 template <class D>
-HWY_INLINE void store_rows(D d, hn::Vec<D> rows, Place* places, const std::uint32_t* at) {
+HWY_INLINE void store_rows([[maybe_unused]] D d, hn::Vec<D> rows, Place* places, const std::uint32_t* at) {
   if constexpr (hn::MaxLanes(D()) == 4) {
     hn::Store(rows, Four(), &places[at[0]].x);
   } else {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "lattice/tet_locator.h"
+#include "base/tet_locator.h"
 
 namespace tetsoup {
 namespace {

@@ -54,14 +54,6 @@ double stable_time_step(const TetMesh& mesh, const Material& material) {
          std::sqrt(material.density * (1 - 2 * material.poisson) / (material.young * largest));
 }
 
-void check(const Material& m) {
-  require(m.density > 0 && std::isfinite(m.density), "density", m.density, "above 0 and finite, in kg/m^3");
-  require(m.young > 0 && std::isfinite(m.young), "young", m.young, "above 0 and finite, in Pa");
-  require(m.poisson >= 0 && m.poisson < 0.5, "poisson", m.poisson, "at least 0 and below 0.5");
-  require(m.metres_per_unit > 0 && std::isfinite(m.metres_per_unit), "metres_per_unit", m.metres_per_unit,
-          "above 0 and finite");
-}
-
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -77,8 +69,16 @@ ReadinessCheck at_least(std::string_view name, std::string_view title, double va
 
 }  // namespace
 
+void check_material(const Material& m) {
+  require(m.density > 0 && std::isfinite(m.density), "density", m.density, "above 0 and finite, in kg/m^3");
+  require(m.young > 0 && std::isfinite(m.young), "young", m.young, "above 0 and finite, in Pa");
+  require(m.poisson >= 0 && m.poisson < 0.5, "poisson", m.poisson, "at least 0 and below 0.5");
+  require(m.metres_per_unit > 0 && std::isfinite(m.metres_per_unit), "metres_per_unit", m.metres_per_unit,
+          "above 0 and finite");
+}
+
 Readiness assess_readiness(const TetMesh& mesh, const Quality& quality, const Material& material) {
-  check(material);
+  check_material(material);
   constexpr double kDegrees = 180 / std::numbers::pi;
   const auto count = [](std::size_t n) { return static_cast<double>(n); };
   Readiness result;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/tet_geometry.h"
+#include "base/tet_locator.h"
 
 namespace tetsoup {
 
@@ -33,12 +34,35 @@ bool around_holds(const TetMesh& mesh, std::span<const std::uint32_t> tets, std:
   });
 }
 
+/// Of the way to a tet's centre: enough for what TetLocator counts as on a face, less than what embedding does.
+constexpr double kPull = 1e-4;
+
 }  // namespace
+
+std::vector<Vec3> pulled_inside(std::span<const Vec3> points, const TetMesh& mesh) {
+  std::vector<Vec3> pulled(points.begin(), points.end());
+  if (points.empty()) return pulled;
+  const TetLocator locator(mesh);
+  for (Vec3& point : pulled) {
+    if (!is_finite(point)) continue;
+    const Vec3d p = to_double(point);
+    constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+    std::uint32_t on_face_of = kNone;
+    bool is_held = false;
+    locator.visit_holders(p, [&](std::uint32_t t) {
+      is_held = is_held || holds(corners_of(mesh, mesh.tets[t]), p);
+      on_face_of = std::min(on_face_of, t);
+    });
+    if (is_held || on_face_of == kNone) continue;
+    const TetCorners tet = corners_of(mesh, mesh.tets[on_face_of]);
+    point = to_float(p + ((tet[0] + tet[1] + tet[2] + tet[3]) * 0.25 - p) * kPull);
+  }
+  return pulled;
+}
 
 SidedPoints::SidedPoints(std::span<const Vec3> points, const TetMesh& mesh, const Connectivity& links)
     : links_(&links) {
   if (points.empty() || mesh.tets.empty()) return;
-  const auto is_finite = [](const Vec3& p) { return std::isfinite(p.x + p.y + p.z); };
   Vec3d lo = to_double(mesh.vertices[mesh.tets[0][0]]), hi = lo;
   for (const Tet& tet : mesh.tets) {
     for (const std::uint32_t v : tet)

@@ -11,6 +11,10 @@
 
 namespace tetsoup {
 
+/// The points, but those that lie in no tet and on a face within rounding are put a little deeper into its tet: else a
+/// point that enclosing took for held would count as outside, and might be left there.
+std::vector<Vec3> pulled_inside(std::span<const Vec3> points, const TetMesh& mesh);
+
 /// The points in buckets. Where a vertex of the boundary moves, only points between its triangles' old and new places
 /// can leave the mesh or come into it.
 class SidedPoints {

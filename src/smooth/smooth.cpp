@@ -137,7 +137,7 @@ SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const 
   StageWatch watch(progress, "smooth");
   check(mesh);
   const Connectivity links = connect(mesh);
-  std::vector<Vec3> sided(target.enclosed.begin(), target.enclosed.end());
+  std::vector<Vec3> sided = pulled_inside(target.enclosed, mesh);
   if (target.stay == Stay::WithinVolume && target.inside != nullptr) add_outer_shell(*target.inside, sided);
   GuardedMesh moving(mesh, links, {options.min_dihedral, options.max_dihedral, options.max_edge_ratio}, sided);
   const bool snaps = options.snap == Snap::Surface && target.inside != nullptr && options.passes > 0;

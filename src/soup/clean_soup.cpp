@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/vec.h"
 #include "soup/diagnose.h"
-#include "soup/merge_vertices.h"
+#include "base/merge_vertices.h"
 #include "tetsoup/soup.h"
 
 namespace tetsoup {
@@ -107,7 +107,7 @@ CleanSoup clean_soup(const TriangleSoup& soup, const Progress& progress) {
 
   std::vector<Triangle> triangles = usable_triangles(soup, report);
   watch.step(0.1);
-  clean.soup.vertices = merge_vertices(soup.vertices, triangles);
+  clean.soup.vertices = merge_vertices(soup.vertices, triangles).positions;
   watch.enter_part(0.4, 0.6);
   const OrderedTriangles ordered = ordered_triangles(clean.soup.vertices.size(), triangles, watch);
   watch.enter_part(0.6, 0.9);

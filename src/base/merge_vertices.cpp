@@ -1,4 +1,4 @@
-#include "soup/merge_vertices.h"
+#include "base/merge_vertices.h"
 
 #include <bit>
 #include <tuple>
@@ -49,7 +49,7 @@ void sort_by_position(std::span<Entry> entries, std::span<Entry> scratch, const 
 
 }  // namespace
 
-std::vector<Vec3> merge_vertices(const std::vector<Vec3>& vertices, std::vector<Triangle>& triangles) {
+MergedVertices merge_vertices(const std::vector<Vec3>& vertices, std::vector<Triangle>& triangles) {
   std::vector<std::uint8_t> used(vertices.size());
   for (const Triangle& t : triangles)
     for (const std::uint32_t v : t) used[v] = 1;
@@ -60,16 +60,15 @@ std::vector<Vec3> merge_vertices(const std::vector<Vec3>& vertices, std::vector<
   std::vector<Entry> scratch(order.size());
   sort_by_position(order, scratch, vertices, 0);
 
-  std::vector<Vec3> merged;
-  merged.reserve(order.size());
-  std::vector<std::uint32_t> name(vertices.size());
+  MergedVertices merged{{}, std::vector<std::uint32_t>(vertices.size(), MergedVertices::kUnused)};
+  merged.positions.reserve(order.size());
   for (const Entry& e : order) {
     const Vec3 position = without_negative_zero(vertices[e.index]);
-    if (merged.empty() || !(merged.back() == position)) merged.push_back(position);
-    name[e.index] = static_cast<std::uint32_t>(merged.size() - 1);
+    if (merged.positions.empty() || !(merged.positions.back() == position)) merged.positions.push_back(position);
+    merged.names[e.index] = static_cast<std::uint32_t>(merged.positions.size() - 1);
   }
   for (Triangle& t : triangles)
-    for (std::uint32_t& v : t) v = name[v];
+    for (std::uint32_t& v : t) v = merged.names[v];
   return merged;
 }
 

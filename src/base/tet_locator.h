@@ -12,8 +12,11 @@ namespace tetsoup {
 
 class TetLocator {
  public:
-  /// O(tets).
-  explicit TetLocator(const TetMesh& mesh);
+  /// Edges of the largest tet: single-precision vertices put a point on a face up to this far outside.
+  static constexpr double kOnFace = 1e-5;
+
+  /// Indices are valid and vertices finite; tets that are flat or inverted hold nothing. O(tets).
+  explicit TetLocator(const TetMesh& mesh, double on_face = kOnFace);
 
   /// visit(tet) for every tet that holds the point or has it on its faces, in ascending order.
   template <class Visit>
@@ -24,14 +27,18 @@ class TetLocator {
     for (const std::uint32_t t : tets_[number_of(bucket)])
       if (holds(t, point)) visit(t);
   }
+  bool holds(std::uint32_t tet, const Vec3d& point) const {
+    for (const Plane& plane : planes_[tet])
+      if (dot(plane.normal, point) + plane.offset < 0) return false;
+    return true;
+  }
 
  private:
-  /// Where dot(normal, p) + offset >= 0, in edges of a bucket.
+  /// Where dot(normal, p) + offset >= 0.
   struct Plane {
     Vec3d normal;
     double offset = 0;
   };
-  bool holds(std::uint32_t tet, const Vec3d& point) const;
   std::array<int, 3> bucket_of(const Vec3d& point) const;
   std::size_t number_of(const std::array<int, 3>& bucket) const {
     return static_cast<std::size_t>(bucket[0]) +

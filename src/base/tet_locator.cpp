@@ -1,17 +1,31 @@
-#include "lattice/tet_locator.h"
+#include "base/tet_locator.h"
 
 #include "base/whole.h"
 
 namespace tetsoup {
 namespace {
 
-/// Edges of a bucket: single-precision vertices put a point on a face up to this far outside.
-constexpr double kOnFace = 1e-5;
 constexpr double kBucketsPerTet = 2;
+/// A bucket's edge in edges of a tet: a point then has a dozen tets to ask.
+constexpr double kBucketShare = 0.375;
+/// Flat and empty meshes would have no end of buckets along their sides.
+constexpr double kMostBucketsPerTet = 16;
+
+/// About the edge of the largest tet.
+double tet_edge_of(const Vec3d& size, double largest_volume, double tet_count) {
+  double edge =
+      std::max(std::cbrt(6 * largest_volume), std::cbrt(size.x * size.y * size.z / (kBucketsPerTet * tet_count + 1)));
+  const double longest = std::max({size.x, size.y, size.z});
+  if (!(longest > 0)) return 1;
+  edge = std::max(edge, longest * 1e-6);
+  const auto buckets = [&] { return (size.x / edge + 1) * (size.y / edge + 1) * (size.z / edge + 1); };
+  while (buckets() > kMostBucketsPerTet * (tet_count + 1)) edge *= 2;
+  return edge;
+}
 
 }  // namespace
 
-TetLocator::TetLocator(const TetMesh& mesh) {
+TetLocator::TetLocator(const TetMesh& mesh, double on_face) {
   if (mesh.tets.empty()) return;
   Vec3d lo = corners_of(mesh, mesh.tets.front())[0], hi = lo;
   double volume = 0;
@@ -23,9 +37,8 @@ TetLocator::TetLocator(const TetMesh& mesh) {
       hi = max(hi, q);
     }
   }
-  const Vec3d size = hi - lo;
-  const double most = kBucketsPerTet * static_cast<double>(mesh.tets.size()) + 1;
-  edge_ = std::max(std::cbrt(6 * volume), std::cbrt(size.x * size.y * size.z / most));
+  const double tet_edge = tet_edge_of(hi - lo, volume, static_cast<double>(mesh.tets.size()));
+  edge_ = tet_edge * kBucketShare;
   origin_ = lo;
   const auto last = bucket_of(hi);
   for (std::size_t i = 0; i < 3; ++i) count_[i] = last[i] + 1;
@@ -33,12 +46,16 @@ TetLocator::TetLocator(const TetMesh& mesh) {
   planes_.resize(mesh.tets.size());
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const TetCorners p = corners_of(mesh, mesh.tets[t]);
+    if (!(signed_volume(p) > 0)) {
+      planes_[t][0] = {{}, -1};  // holds nothing
+      continue;
+    }
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& face = kTetFaces[i];
       const Vec3d a = p[static_cast<std::size_t>(face[0])];
       Vec3d n = cross(p[static_cast<std::size_t>(face[2])] - a, p[static_cast<std::size_t>(face[1])] - a);
       n = n * (1 / length(n));
-      planes_[t][i] = {n, -dot(n, a) + kOnFace * edge_};
+      planes_[t][i] = {n, -dot(n, a) + on_face * tet_edge};
     }
   }
   tets_ = Groups<std::uint32_t>(number_of({count_[0] - 1, count_[1] - 1, count_[2] - 1}) + 1, [&](const auto& put) {
@@ -59,12 +76,6 @@ std::array<int, 3> TetLocator::bucket_of(const Vec3d& point) const {
   const Vec3d p = (point - origin_) * (1 / edge_);
   const auto whole = [&](double x) { return floor_to_int(std::clamp(x, -kFar, kFar)); };
   return {whole(p.x), whole(p.y), whole(p.z)};
-}
-
-bool TetLocator::holds(std::uint32_t tet, const Vec3d& point) const {
-  for (const Plane& plane : planes_[tet])
-    if (dot(plane.normal, point) + plane.offset < 0) return false;
-  return true;
 }
 
 }  // namespace tetsoup

@@ -1,0 +1,81 @@
+// CalculiX's scene: how the body sags under its own weight, standing on its foot or hanging from its pins.
+#include <algorithm>
+#include <span>
+
+#include "base/unions.h"
+#include "io/engines/scene_parts.h"
+#include "io/line_writer.h"
+#include "io/model_parts.h"
+
+namespace tetsoup {
+
+namespace {
+
+constexpr double kFootShare = 0.05;  // Of the height of a piece; what stands on the ground is as flat as that.
+constexpr std::size_t kFewest = 4;   // Vertices that hold a piece.
+
+constexpr std::string_view kScene = R"(** How a body sags under its own weight, in CalculiX: ccx @stem@_gravity
+** Its material is that of the mesh file.
+*INCLUDE, INPUT=@file@
+*NSET, NSET=HELD_IN_SCENE
+@held@
+*BOUNDARY
+HELD_IN_SCENE, 1, 3
+*STEP
+*STATIC
+*DLOAD
+EALL, GRAV, 9.81, @down@
+*NODE FILE
+U
+*EL FILE
+S
+*EL PRINT, ELSET=EALL, TOTALS=ONLY
+EVOL
+*END STEP
+)";
+
+double height_of(const Vec3& v, UpAxis up) {
+  return up == UpAxis::X ? v.x : up == UpAxis::Y ? v.y : v.z;
+}
+
+// Every piece needs something to stand on, or nothing determines where it is.
+std::vector<std::uint32_t> held_vertices(const TetModel& model) {
+  const std::vector<Vec3>& vertices = model.mesh.vertices;
+  Unions pieces(vertices.size());
+  for (const Tet& t : model.mesh.tets)
+    for (std::size_t i = 1; i < 4; ++i) pieces.join(t[0], t[i]);
+  std::vector<std::uint32_t> held = pinned_vertices(model);
+  std::vector<bool> is_held(vertices.size());
+  for (const std::uint32_t v : held) is_held[pieces.find(v)] = true;
+  std::vector<std::vector<std::uint32_t>> members(vertices.size());
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) members[pieces.find(v)].push_back(v);
+  for (std::size_t piece = 0; piece < members.size(); ++piece) {
+    std::vector<std::uint32_t>& list = members[piece];
+    if (list.size() < kFewest || is_held[piece]) continue;
+    const auto height = [&](std::uint32_t v) { return height_of(vertices[v], model.up); };
+    std::ranges::stable_sort(list, {}, height);
+    const double foot = height(list.front()) + kFootShare * (height(list.back()) - height(list.front()));
+    for (std::size_t i = 0; i < list.size() && (i < kFewest || height(list[i]) <= foot); ++i) held.push_back(list[i]);
+  }
+  std::ranges::sort(held);
+  return held;
+}
+
+}  // namespace
+
+std::string calculix_scene(const SceneInput& input) {
+  constexpr std::size_t kPerLine = 8;
+  std::string held;
+  const std::vector<std::uint32_t> vertices = held_vertices(input.model);
+  append_list(held, std::span(vertices), 1U, kPerLine, ", ");
+  held.pop_back();
+  const UpAxis up = input.model.up;
+  return filled(kScene, {{"stem", input.mesh_file.substr(0, input.mesh_file.rfind('.'))},
+                         {"file", input.mesh_file},
+                         {"held", held},
+                         {"down", up == UpAxis::X   ? "-1, 0, 0"
+                                  : up == UpAxis::Y ? "0, -1, 0"
+                                                    : "0, 0, -1"}});
+}
+
+}  // namespace tetsoup

@@ -1,0 +1,87 @@
+// PyBullet's scene: a script with a deformable world.
+#include <cmath>
+
+#include "io/engines/scene_parts.h"
+
+namespace tetsoup {
+
+namespace {
+
+// PyBullet's default step. On the models that were tried one step took 5 explicit ones always, 10 not always.
+constexpr StepLimit kLimit{1.0 / 240, 5};
+
+constexpr std::string_view kScene =
+    R"("""A soft body falls on a plane, in PyBullet: python @stem@_pybullet.py [--view]"""
+import pathlib
+import sys
+
+import numpy
+import pybullet
+
+MESH = str(pathlib.Path(__file__).with_name(@file@))
+STEP = @step@  # s
+HEIGHT = @height@  # m, of the body
+MASS = @mass@  # kg
+# Young's modulus of @young@ Pa and a Poisson ratio of @poisson@: @why@.
+MU, LAMBDA = @mu@, @lambda@  # Pa
+HELD = [@pins@]  # vertices
+
+
+def simulate(seconds=1.0, view=False):
+    """Positions at the start, positions at the end, velocities at the end."""
+    pybullet.connect(pybullet.GUI if view else pybullet.DIRECT)
+    pybullet.resetSimulation(pybullet.RESET_USE_DEFORMABLE_WORLD)
+    pybullet.setGravity(0, 0, -9.81)
+    pybullet.setTimeStep(STEP)
+    # A box: soft bodies stop 0.1 m above a shape of type plane.
+    box = pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=[20 * HEIGHT, 20 * HEIGHT, HEIGHT])
+    pybullet.createMultiBody(0, box, basePosition=[0, 0, -HEIGHT])
+    body = pybullet.loadSoftBody(
+        MESH, basePosition=[@x@, @y@, @lift@], baseOrientation=[@quat@], mass=MASS, collisionMargin=0.005 * HEIGHT,
+        useNeoHookean=1, NeoHookeanMu=MU, NeoHookeanLambda=LAMBDA, NeoHookeanDamping=0.01,
+        frictionCoeff=0.5, useSelfCollision=0)
+    for vertex in HELD:
+        pybullet.createSoftBodyAnchor(body, vertex, -1, -1)
+
+    def positions():
+        return numpy.array(pybullet.getMeshData(body, -1, flags=pybullet.MESH_DATA_SIMULATION_MESH)[1])
+
+    start = before = now = positions()
+    for _ in range(round(seconds / STEP)):
+        before = now
+        pybullet.stepSimulation()
+        now = positions()
+    while view and pybullet.isConnected():
+        pybullet.stepSimulation()
+    return start, now, (now - before) / STEP
+
+
+if __name__ == "__main__":
+    _, ends, velocities = simulate(view="--view" in sys.argv)
+    speed = numpy.sqrt((velocities**2).sum(axis=1).mean())
+    print(f"after one second: lowest point {ends[:, 2].min():.4f} m, speed {speed:.4f} m/s")
+)";
+
+}  // namespace
+
+std::string pybullet_scene(const SceneInput& input) {
+  const Drop drop = plan_drop(input, kLimit);
+  const auto [lambda, mu] = lame(drop);
+  return filled(kScene, {{"stem", drop.name},
+                         {"file", quoted_python(input.mesh_file)},
+                         {"step", "1 / " + brief(std::round(1 / drop.time_step))},
+                         {"height", brief(drop.height)},
+                         {"mass", brief(drop.mass)},
+                         {"young", brief(drop.young)},
+                         {"poisson", brief(drop.poisson)},
+                         {"why", drop.stiffness_why},
+                         {"mu", brief(mu)},
+                         {"lambda", brief(lambda)},
+                         {"pins", pin_list(input.model, 0, ", ")},
+                         {"x", brief(drop.x)},
+                         {"y", brief(drop.y)},
+                         {"lift", brief(drop.lift)},
+                         {"quat", upright_xyzw(input.model.up, ", ")}});
+}
+
+}  // namespace tetsoup

@@ -1,0 +1,130 @@
+#include "io/model_parts.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/require.h"
+#include "base/tet_geometry.h"
+
+namespace tetsoup {
+
+namespace {
+
+constexpr std::size_t kLongestName = 60;  // Of 80 that Abaqus and CalculiX take: writers and numbers add to it.
+
+bool is_letter_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+// Whatever stands between letters and digits becomes one underscore.
+std::string word_of(std::string_view wanted, std::string_view fallback) {
+  std::string word;
+  for (const char c : wanted) {
+    if (is_letter_or_digit(c))
+      word += c;
+    else if (!word.empty() && word.back() != '_')
+      word += '_';
+  }
+  if (word.ends_with('_')) word.pop_back();
+  if (word.empty()) return std::string(fallback);
+  if (word[0] >= '0' && word[0] <= '9') word = std::string(fallback) + '_' + word;
+  return word.substr(0, kLongestName);
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+}  // namespace
+
+void require_valid(const TetModel& model) {
+  const std::size_t vertices = model.mesh.vertices.size(), tets = model.mesh.tets.size();
+  for (const Tet& tet : model.mesh.tets)
+    for (const std::uint32_t vertex : tet)
+      require(vertex < vertices, "vertex of a tet", vertex, "below the number of vertices");
+  require(!model.regions.empty(), "number of regions", model.regions.size(), "at least 1");
+  require(model.tet_regions.empty() || model.tet_regions.size() == tets, "number of tets with a region",
+          model.tet_regions.size(), "0 or the number of tets");
+  for (const std::uint32_t region : model.tet_regions)
+    require(region < model.regions.size(), "region of a tet", region, "below the number of regions");
+  for (const VertexSet& pin : model.pins)
+    for (const std::uint32_t vertex : pin.vertices)
+      require(vertex < vertices, "pinned vertex", vertex, "below the number of vertices");
+  const Embedding& embedding = model.embedding;
+  require(embedding.weights.size() == embedding.tets.size(), "number of embedded points with weights",
+          embedding.weights.size(), "the number of those with a tet");
+  for (const std::uint32_t tet : embedding.tets)
+    require(tet < tets, "tet of an embedded point", tet, "below the number of tets");
+}
+
+std::vector<std::vector<std::uint32_t>> tets_by_region(const TetModel& model) {
+  std::vector<std::vector<std::uint32_t>> lists(model.regions.size());
+  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t)
+    lists[region_of(model, t)].push_back(static_cast<std::uint32_t>(t));
+  return lists;
+}
+
+std::vector<std::uint32_t> pin_marks(const TetModel& model) {
+  std::vector<std::uint32_t> marks(model.mesh.vertices.size());
+  for (std::size_t i = model.pins.size(); i-- > 0;)
+    for (const std::uint32_t vertex : model.pins[i].vertices) marks[vertex] = static_cast<std::uint32_t>(i + 1);
+  return marks;
+}
+
+std::vector<std::uint32_t> pinned_vertices(const TetModel& model) {
+  const std::vector<std::uint32_t> marks = pin_marks(model);
+  std::vector<std::uint32_t> vertices;
+  for (std::size_t v = 0; v < marks.size(); ++v)
+    if (marks[v] != 0) vertices.push_back(static_cast<std::uint32_t>(v));
+  return vertices;
+}
+
+std::vector<std::array<std::uint32_t, 2>> unique_edges(const TetMesh& mesh) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  edges.reserve(6 * mesh.tets.size());
+  for (const Tet& tet : mesh.tets)
+    for (const auto& edge : kTetEdges) {
+      const std::uint32_t a = tet[static_cast<std::size_t>(edge[0])], b = tet[static_cast<std::size_t>(edge[1])];
+      edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+LegalNames::LegalNames(std::initializer_list<std::string_view> reserved) {
+  for (const std::string_view name : reserved) used_.push_back(lower(std::string(name)));
+}
+
+std::string LegalNames::make(std::string_view wanted, std::string_view fallback) {
+  const std::string word = word_of(wanted, fallback);
+  std::string name = word;
+  for (int number = 2; std::find(used_.begin(), used_.end(), lower(name)) != used_.end(); ++number)
+    name = word + '_' + std::to_string(number);
+  used_.push_back(lower(name));
+  return name;
+}
+
+std::vector<std::string> region_names(const TetModel& model, LegalNames& names) {
+  std::vector<std::string> made;
+  for (const Region& region : model.regions) made.push_back(names.make(region.name, "region"));
+  return made;
+}
+
+std::vector<std::string> pin_names(const TetModel& model, LegalNames& names) {
+  std::vector<std::string> made;
+  for (const VertexSet& pin : model.pins) made.push_back(names.make(pin.name, "pin"));
+  return made;
+}
+
+Material in_mesh_units(const Material& material) {
+  const double unit = material.metres_per_unit;
+  Material scaled = material;
+  scaled.density *= unit * unit * unit;  // kg/m^3
+  scaled.young *= unit;                  // Pa = kg/(m s^2)
+  return scaled;
+}
+
+}  // namespace tetsoup

@@ -1,0 +1,130 @@
+// Tet meshes for VTK: the legacy format and XML.
+#include <cstdint>
+#include <string>
+
+#include "io/base64.h"
+#include "io/model_parts.h"
+#include "io/number_text.h"
+#include "io/raw_numbers.h"
+#include "io/text_capacity.h"
+#include "io/tet_writers.h"
+
+namespace tetsoup {
+
+namespace {
+
+void append_scalars(std::string& text, const std::string& name) {
+  text += "SCALARS " + name + " int 1\nLOOKUP_TABLE default\n";
+}
+
+std::vector<std::uint8_t> members(const VertexSet& set, std::size_t vertex_count) {
+  std::vector<std::uint8_t> is_member(vertex_count);
+  for (const std::uint32_t vertex : set.vertices) is_member[vertex] = 1;
+  return is_member;
+}
+
+std::vector<std::string> pin_array_names(const TetModel& model) {
+  LegalNames names;
+  std::vector<std::string> made;
+  for (const std::string& name : pin_names(model, names)) made.push_back("pin_" + name);
+  return made;
+}
+
+void append_data(std::string& text, const TetModel& model) {
+  if (has_regions(model)) {
+    text += "CELL_DATA ";
+    append_line(text, model.mesh.tets.size());
+    append_scalars(text, "region");
+    for (std::size_t i = 0; i < model.mesh.tets.size(); ++i) append_line(text, region_of(model, i));
+  }
+  if (model.pins.empty()) return;
+  text += "POINT_DATA ";
+  append_line(text, model.mesh.vertices.size());
+  const std::vector<std::string> names = pin_array_names(model);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    append_scalars(text, names[i]);
+    for (const std::uint8_t is_member : members(model.pins[i], model.mesh.vertices.size()))
+      append_line(text, static_cast<int>(is_member));
+  }
+}
+
+void append_data_array(std::string& text, const std::string& attributes, const std::string& bytes) {
+  std::string raw;
+  raw.reserve(bytes.size() + 8);
+  append_raw(raw, static_cast<std::uint64_t>(bytes.size()));
+  raw += bytes;
+  text += "        <DataArray ";
+  text += attributes;
+  text += " format=\"binary\">";
+  append_base64(text, raw);
+  text += "</DataArray>\n";
+}
+
+void append_xml_data(std::string& text, const TetModel& model) {
+  if (!model.pins.empty()) {
+    text += "      <PointData>\n";
+    const std::vector<std::string> names = pin_array_names(model);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::vector<std::uint8_t> is_member = members(model.pins[i], model.mesh.vertices.size());
+      append_data_array(text, "type=\"UInt8\" Name=\"" + names[i] + '"', {is_member.begin(), is_member.end()});
+    }
+    text += "      </PointData>\n";
+  }
+  if (!has_regions(model)) return;
+  std::string regions;
+  for (std::size_t i = 0; i < model.mesh.tets.size(); ++i)
+    append_raw(regions, static_cast<std::int32_t>(region_of(model, i)));
+  text += "      <CellData Scalars=\"region\">\n";
+  append_data_array(text, "type=\"Int32\" Name=\"region\"", regions);
+  text += "      </CellData>\n";
+}
+
+}  // namespace
+
+// Bullet reads points and cells line by line and nothing newer; behind CELL_TYPES it looks at no line any more.
+std::string vtk_text(const TetModel& model) {
+  const TetMesh& mesh = model.mesh;
+  std::string text = text_for(mesh);
+  text += "# vtk DataFile Version 3.0\ntetsoup\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ";
+  append_number(text, mesh.vertices.size());
+  text += " float\n";
+  for (const Vec3& v : mesh.vertices) append_line(text, v.x, v.y, v.z);
+  text += "CELLS ";
+  append_line(text, mesh.tets.size(), 5 * mesh.tets.size());
+  for (const Tet& t : mesh.tets) append_line(text, 4, t[0], t[1], t[2], t[3]);
+  text += "CELL_TYPES ";
+  append_line(text, mesh.tets.size());
+  for (std::size_t i = 0; i < mesh.tets.size(); ++i) text += "10\n";
+  append_data(text, model);
+  return text;
+}
+
+std::string vtu_text(const TetModel& model) {
+  const TetMesh& mesh = model.mesh;
+  std::string points, corners, offsets;
+  for (const Vec3& v : mesh.vertices)
+    for (const float coordinate : {v.x, v.y, v.z}) append_raw(points, coordinate);
+  for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
+    for (const std::uint32_t corner : mesh.tets[i]) append_raw(corners, std::int64_t{corner});
+    append_raw(offsets, static_cast<std::int64_t>(4 * (i + 1)));
+  }
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"";
+  append_number(text, mesh.vertices.size());
+  text += "\" NumberOfCells=\"";
+  append_number(text, mesh.tets.size());
+  text += "\">\n";
+  append_xml_data(text, model);
+  text += "      <Points>\n";
+  append_data_array(text, "type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\"", points);
+  text += "      </Points>\n      <Cells>\n";
+  append_data_array(text, "type=\"Int64\" Name=\"connectivity\"", corners);
+  append_data_array(text, "type=\"Int64\" Name=\"offsets\"", offsets);
+  append_data_array(text, "type=\"UInt8\" Name=\"types\"", std::string(mesh.tets.size(), '\x0A'));
+  text += "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
+  return text;
+}
+
+}  // namespace tetsoup

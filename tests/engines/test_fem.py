@@ -1,0 +1,76 @@
+"""Finite elements on our meshes, by scikit-fem: what theory says of any valid mesh holds on them."""
+import itertools
+import subprocess
+
+import meshio
+import numpy
+import pytest
+from skfem import Basis, ElementTetP1, ElementTetP2, ElementVector, MeshTet, condense, solve
+from skfem.helpers import ddot, sym_grad, trace, eye
+from skfem import BilinearForm, LinearForm
+
+from conftest import TOOL
+
+YOUNG, POISSON = 1e5, 0.3
+LAMBDA = YOUNG * POISSON / ((1 + POISSON) * (1 - 2 * POISSON))
+MU = YOUNG / (2 * (1 + POISSON))
+LENGTH, THICK = 4.0, 1.0
+
+
+@BilinearForm
+def stiffness(u, v, _):
+    strain = sym_grad(u)
+    return ddot(2 * MU * strain + LAMBDA * eye(trace(strain), 3), sym_grad(v))
+
+
+@pytest.fixture(scope="module")
+def beam(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("beam")
+    corners = list(itertools.product((0, LENGTH), (0, THICK), (0, THICK)))
+    quads = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+    soup = folder / "beam.obj"
+    soup.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) +
+                    "".join("f " + " ".join(map(str, quad)) + "\n" for quad in quads))
+
+    def mesh(lattice, tets):
+        path = folder / f"{lattice}_{tets}.vtk"
+        subprocess.run([TOOL, "mesh", soup, "-o", path, "--lattice", lattice, "--tets", str(tets), "--quiet"], check=True)
+        data = meshio.read(path)
+        return MeshTet(data.points.T.copy(), data.cells_dict["tetra"].T.copy().astype(numpy.int64))
+
+    return mesh
+
+
+@pytest.mark.parametrize("lattice", ("five", "bcc"))
+def test_a_linear_displacement_is_reproduced_to_rounding(beam, lattice):
+    basis = Basis(beam(lattice, 500), ElementVector(ElementTetP1()))
+    gradient = numpy.array([[0.1, -0.2, 0.3], [0.05, 0.2, 0.1], [-0.1, 0.15, -0.05]])
+    exact = numpy.zeros(basis.N)
+    exact[basis.nodal_dofs] = gradient @ basis.mesh.p
+    found = solve(*condense(stiffness.assemble(basis), x=exact, D=basis.get_dofs()))
+    assert abs(found - exact).max() < 1e-12
+
+
+def deflection(mesh):
+    """Of the free end under the beam's own weight, over beam theory's with bending and shear. Smoothing rounds the edges
+    of a box, so the section is taken as the mesh has it, in the mean."""
+    basis = Basis(mesh, ElementVector(ElementTetP2()))
+    sections = Basis(mesh, ElementTetP2())
+    length = numpy.ptp(mesh.p[0])
+    x, _, z = sections.global_coordinates()
+    area = sections.dx.sum() / length
+    inertia = ((z - THICK / 2) ** 2 * sections.dx).sum() / length
+    near = 0.02 * length  # The ends are flat within that.
+    load = LinearForm(lambda v, _: -v[2]).assemble(basis)
+    held = basis.get_dofs(lambda x: x[0] < mesh.p[0].min() + near)
+    moved = solve(*condense(stiffness.assemble(basis), load, D=held))
+    tip = basis.get_dofs(lambda x: x[0] > mesh.p[0].max() - near)
+    found = -moved[tip.all("u^3")].mean()
+    return found / (area * length**4 / (8 * YOUNG * inertia) + length**2 / (2 * 5 / 6 * MU))
+
+
+@pytest.mark.parametrize("lattice", ("five", "bcc"))
+def test_a_cantilever_converges_to_beam_theory(beam, lattice):
+    coarse, middle, fine = (abs(deflection(beam(lattice, tets)) - 1) for tets in (300, 1200, 4800))
+    assert fine < middle < coarse, (coarse, middle, fine)
+    assert fine < 0.05

@@ -1,0 +1,155 @@
+// The command-line tool, run as a user runs it: render surface, regions and pins.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "run_tool.h"
+#include "tetsoup/io.h"
+
+namespace tetsoup::test {
+
+namespace {
+
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+/// A plate and a pillar on it, of quads, with names.
+class ModelTool : public Tool {
+ protected:
+  void SetUp() override {
+    Tool::SetUp();
+    std::string text;
+    const auto add_box = [&](int first, const char* names, double x, double lo, double hi) {
+      text += names;
+      for (int i = 0; i < 8; ++i) {
+        const auto at = [&](int bit, double low, double high) { return std::to_string((i >> bit) & 1 ? high : low); };
+        text += "v " + at(0, -x, x) + " " + at(1, lo, hi) + " " + at(2, -x, x) + "\n";
+      }
+      for (const auto& f :
+           {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+        text += "f";
+        for (const int v : f) text += " " + std::to_string(first + v);
+        text += "\n";
+      }
+    };
+    add_box(1, "o Base plate\nusemtl steel\n", 1, 0, 0.3);
+    add_box(9, "o Pillar\nusemtl foam\n", 0.3, 0.2, 2);
+    write_text(in_folder("lamp.obj"), text);
+  }
+  Outcome mesh(Words more) {
+    Words words{"mesh", "lamp.obj", "--voxels", "48", "--tets", "600"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  }
+};
+
+TEST_F(ModelTool, materials_become_regions_with_their_own_numbers) {
+  const Outcome outcome = mesh({"-o", "lamp.json", "--regions", "material", "--region", "foam=80,2e4,0.1", "--region",
+                                "steel=,2e11", "--json", "report.json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Regions: steel ("), std::string::npos) << outcome.out;
+  const Json regions = Json::parse(read_text(in_folder("report.json"))).at("regions");
+  ASSERT_EQ(regions.size(), 2U);
+  EXPECT_EQ(regions[0].at("name"), "steel");
+  EXPECT_EQ(regions[0].at("density"), 1000);
+  EXPECT_EQ(regions[0].at("young"), 2e11);
+  EXPECT_EQ(regions[1].at("name"), "foam");
+  EXPECT_EQ(regions[1].at("density"), 80);
+  EXPECT_EQ(regions[1].at("poisson"), 0.1);
+  // Tets above the plate are the pillar's.
+  const Json lamp = Json::parse(read_text(in_folder("lamp.json")));
+  const auto& tets = lamp.at("tets");
+  std::size_t foam = 0;
+  for (std::size_t t = 0; 4 * t < tets.size(); ++t) {
+    double height = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      height += lamp.at("vertices")[3 * tets[4 * t + i].get<std::size_t>() + 1].get<double>() / 4;
+    const int region = lamp.at("tet_regions")[t];
+    if (height > 0.6 || height < 0.1) {
+      EXPECT_EQ(region, height > 0.6);
+    }
+    foam += region == 1;
+  }
+  EXPECT_EQ(regions[1].at("tet_count"), foam);
+}
+
+TEST_F(ModelTool, pins_by_box_plane_and_part_are_written_and_counted) {
+  const Outcome outcome = mesh({"-o", "lamp.json", "--pin-below", "y:0.05", "--pin-box", "-2,1.5,-2,2,3,2",
+                                "--pin-part", "Base plate", "--pin-below", "-y:-100", "--json", "report.json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json lamp = Json::parse(read_text(in_folder("lamp.json")));
+  const auto height = [&](const Json& v) { return lamp.at("vertices")[3 * v.get<std::size_t>() + 1].get<double>(); };
+  Json pins;
+  for (const Json& set : lamp.at("pins")) pins[set.at("name")] = set.at("vertices");
+  ASSERT_EQ(pins.size(), 4U);
+  for (const Json& v : pins.at("below")) EXPECT_LE(height(v), 0.05);
+  for (const Json& v : pins.at("box")) EXPECT_GE(height(v), 1.5);
+  EXPECT_FALSE(pins.at("below").empty());
+  EXPECT_FALSE(pins.at("box").empty());
+  EXPECT_GT(pins.at("Base plate").size(), pins.at("below").size() / 2);
+  EXPECT_TRUE(pins.at("below_2").empty());
+  EXPECT_NE(outcome.out.find("Note: 'below_2' holds nothing"), std::string::npos) << outcome.out;
+  const Json report = Json::parse(read_text(in_folder("report.json"))).at("pins");
+  EXPECT_EQ(report[0].at("name"), "box");
+  EXPECT_EQ(report[0].at("vertex_count"), pins.at("box").size());
+}
+
+TEST_F(ModelTool, the_embedding_has_a_row_for_every_vertex_of_the_file) {
+  for (const char* name : {"lamp.npz", "lamp.embedding"}) {
+    const Outcome outcome = mesh({"-o", "lamp.msh", "--embed", name, "--enclose", "--json", "report.json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("Embedding: 16 vertices of the model in the tets, 0 outside.\n"), std::string::npos);
+    const Json report = Json::parse(read_text(in_folder("report.json")));
+    EXPECT_EQ(report.at("embedding").at("inside"), 16);
+    EXPECT_EQ(report.at("outputs"), Json({"lamp.msh", name}));
+    const Embedding embedding = read_embedding(in_folder(name));
+    ASSERT_EQ(embedding.tets.size(), 16U);
+    const TetMesh mesh = read_tets(in_folder("lamp.msh"));
+    const std::vector<Vec3> points = deform_points(embedding, mesh.tets, mesh.vertices);
+    const TriangleSoup soup = read_soup(in_folder("lamp.obj"));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_NEAR(points[i].x, soup.vertices[i].x, 1e-5);
+      EXPECT_NEAR(points[i].y, soup.vertices[i].y, 1e-5);
+    }
+  }
+}
+
+TEST_F(ModelTool, wrong_names_and_numbers_are_refused_before_the_work_and_say_what_there_is) {
+  const auto fails = [&](Words words, const std::string& part) {
+    words.insert(words.begin(), {"-o", "lamp.msh"});
+    const Outcome outcome = mesh(words);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_EQ(files(), (Words{"cube.obj", "lamp.obj"}));
+  };
+  fails({"--pin-part", "Top"}, "no part 'Top'; it has object 'Base plate', object 'Pillar', material 'steel'");
+  fails({"--regions", "object", "--region", "steel=5"}, "no object 'steel'");
+  fails({"--region", "steel=5"}, "needs --regions");
+  fails({"--regions", "colour"}, "must be object, group or material");
+  fails({"--regions", "material", "--region", "steel"}, "must be NAME=DENSITY,YOUNG,POISSON");
+  fails({"--regions", "material", "--region", "steel="}, "must be NAME=");
+  fails({"--regions", "material", "--region", "steel=-5"}, "above 0");
+  fails({"--regions", "material", "--region", "steel=5,1e5,0.5"}, "below 0.5");
+  fails({"--pin-box", "0,0,0,1,1"}, "two corners");
+  fails({"--pin-box", "0,0,0,1,1,nan"}, "finite");
+  fails({"--pin-below", "0.5"}, "AXIS:OFFSET");
+  fails({"--pin-below", "q:1"}, "AXIS:OFFSET");
+  fails({"--pin-below", "0,0,0:1"}, "must not be zero");
+  fails({"--embed", "lamp.txt"}, ".npz or .embedding");
+  fails({"--embed", "lamp.obj"}, ".npz or .embedding");
+}
+
+TEST_F(ModelTool, a_model_without_names_is_one_region_and_says_so) {
+  const Outcome outcome = run({"mesh", "cube.obj", "-o", "cube.msh", "--voxels", "24", "--regions", "group"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Note: the model names nothing that makes regions"), std::string::npos) << outcome.out;
+}
+
+TEST_F(ModelTool, inspect_lists_the_parts) {
+  const std::string out = run({"inspect", "lamp.obj"}).out;
+  for (const char* part : {"Base plate", "Pillar", "steel", "foam"})
+    EXPECT_NE(out.find(part), std::string::npos) << out;
+}
+
+}  // namespace
+
+}  // namespace tetsoup::test
