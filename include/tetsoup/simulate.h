@@ -144,7 +144,7 @@ class Simulation {
   void remove_spring(std::size_t spring);
 
   /// Advances time by `dt` seconds, (0, 1].
-  /// Cost: about 10 ns a tet and substep, and 0.1 us a tet for every search for contacts; all threads.
+  /// Cost: about 10 ns a tet and substep, and 0.1 to 0.4 us a tet for every search for contacts; all threads.
   void step(double dt);
 
   std::size_t body_count() const;

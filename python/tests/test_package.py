@@ -82,6 +82,13 @@ def test_example_sweep(tmp_path):
     assert "computed 1 time(s)" in run(sys.executable, EXAMPLES / "sweep.py", cwd=tmp_path).replace("  ", " ")
 
 
+def test_example_embed_and_deform(tmp_path):
+    said = run(sys.executable, EXAMPLES / "embed_and_deform.py", cwd=tmp_path)
+    error = re.search(r"at most ([0-9.]+) % of its size", said)
+    assert error and float(error[1]) < 1, said
+    assert len(tetsoup.read(tmp_path / "bent.obj").faces) == len(tetsoup.sample("tree").faces)
+
+
 def test_example_batch(tmp_path):
     for name in ("torus", "robot"):
         run(sys.executable, "-m", "tetsoup", "sample", name, "-o", f"{name}.obj", cwd=tmp_path)

@@ -9,3 +9,6 @@ print(mesh.quality.min_dihedral, mesh.report.lattice.tet_count)
 print(mesh.quality.minimum_dihedral)  # wrong
 tetsoup.smooth(mesh, tets=3)  # wrong
 mesh.save(3)  # wrong
+mesh.save("bunny", engine=3)  # wrong
+mesh.regions("bunny.obj", by="colour")  # wrong
+mesh.embed("bunny.obj").bend  # wrong

@@ -23,4 +23,10 @@ def main(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64]) -> flo
     lattice, report = tetsoup.fill_lattice(pipeline.pseudo_volume, pipeline.soup, cells=20)
     parts: int = again.quality.components + report.topology.parts_dropped + len(lattice.tets)
     seconds: dict[str, float] = again.report.seconds
+    surface = tetsoup.read_surface("bunny.obj")
+    embedding: tetsoup.Embedding = mesh.embed(surface, max_extrapolation=2, progress=watch)
+    moved: npt.NDArray[np.float32] = embedding.deform(points * 2)
+    pins = {"floor": mesh.vertices_below(0.1)}
+    mesh.save("bunny", engine="newton", up="y", regions=mesh.regions(surface), pins=pins, embedding=embedding)
+    parts += int(moved.size) + len(surface.parts[0].material)
     return parts + seconds["lattice"] + float(points[tets].sum()) + int(votes.max()) + mesh.readiness(density=500).mass

@@ -155,7 +155,7 @@ def embed(
         An `Embedding` of the vertices in their own order.
 
     Raises:
-        tetsoup.InvalidInput: if the mesh has no tet, or an array or the option is wrong. Points that are NaN are counted.
+        tetsoup.InvalidInput: if the mesh has no tet, or an array or the option is wrong. NaN is counted, not refused.
         tetsoup.IoError: if a file cannot be read.
         tetsoup.Cancelled: if `progress` answers False.
 

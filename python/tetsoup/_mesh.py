@@ -186,9 +186,7 @@ class TetMesh:
         """
         if format is not None and engine is not None:
             raise InvalidInput("format and engine: at most one of them")
-        body = Body(
-            name, up, density, young, poisson, metres_per_unit, regions, materials, pins, surface, embedding
-        )
+        body = Body(name, up, density, young, poisson, metres_per_unit, regions, materials, pins, surface, embedding)
         model = make_model(self, body)
         if engine is None:
             return _core.write_tets(os.fspath(path), model, format)
@@ -240,9 +238,7 @@ class TetMesh:
         """
         return _core.vertices_below(self._handle, _triple(normal, "normal"), offset)
 
-    def vertices_near(
-        self, surface: Any, name: str, *, progress: Progress | None = None
-    ) -> npt.NDArray[np.int32]:
+    def vertices_near(self, surface: Any, name: str, *, progress: Progress | None = None) -> npt.NDArray[np.int32]:
         """Vertices to which faces of this object, group or material are nearest, (n,) int32 ascending.
 
         Raises:

@@ -104,7 +104,9 @@ def _add_surface(model: _core.TetModel, mesh: TetMesh, body: Body) -> None:
         if embedding is None:
             embedding = embed(mesh, surface)
         if len(embedding) != len(surface.vertices):
-            raise InvalidInput(f"embedding has {len(embedding)} points, must have {len(surface.vertices)}: the surface's")
+            raise InvalidInput(
+                f"embedding has {len(embedding)} points, must have {len(surface.vertices)}: the surface's"
+            )
         model.set_render(surface._handle)
     if embedding is not None:
         model.set_embedding(embedding._handle)
