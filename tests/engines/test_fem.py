@@ -9,6 +9,7 @@ from skfem import Basis, ElementTetP1, ElementTetP2, ElementVector, MeshTet, con
 from skfem.helpers import ddot, sym_grad, trace, eye
 from skfem import BilinearForm, LinearForm
 
+from bodies import SIZES
 from conftest import TOOL
 
 YOUNG, POISSON = 1e5, 0.3
@@ -49,6 +50,23 @@ def test_a_linear_displacement_is_reproduced_to_rounding(beam, lattice):
     exact[basis.nodal_dofs] = gradient @ basis.mesh.p
     found = solve(*condense(stiffness.assemble(basis), x=exact, D=basis.get_dofs()))
     assert abs(found - exact).max() < 1e-12
+
+
+@pytest.mark.parametrize("tets", SIZES)
+@pytest.mark.parametrize("body", ("bunny", "robot"))
+def test_a_linear_displacement_of_the_boundary_is_linear_within_a_body(body, tets, write, prove):
+    written = write("paraview", body, tets)
+    data = meshio.read(written.path(".vtu"))
+    mesh = MeshTet(numpy.ascontiguousarray(data.points.T, float), data.cells_dict["tetra"].T.astype(numpy.int64))
+    basis = Basis(mesh, ElementVector(ElementTetP1()))
+    exact = numpy.zeros(basis.N)
+    exact[basis.nodal_dofs] = numpy.array([[0.1, -0.2, 0.3], [0.05, 0.2, 0.1], [-0.1, 0.15, -0.05]]) @ mesh.p
+    held = basis.get_dofs()
+    assert len(held.all()) < basis.N  # There are vertices inside.
+    found = solve(*condense(stiffness.assemble(basis), x=exact, D=held))
+    error = abs(found - exact).max() / abs(exact).max()
+    prove("scikit-fem", "patch", written, error=error)
+    assert error < 1e-10
 
 
 def deflection(mesh, element):
