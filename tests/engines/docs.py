@@ -12,8 +12,8 @@ from bodies import BODIES, SIZES
 from drops import ENDINGS, SHORTCOMINGS
 
 PACKAGES = {
-    "abaqus": "meshio", "blender": "trimesh", "bullet": "pybullet", "drake": "drake", "gmsh": "gmsh", "isaac": "usd-core",
-    "mmg": "meshio", "mujoco": "mujoco", "netgen": "netgen-mesher", "newton": "newton", "paraview": "pyvista",
+    "abaqus": "meshio", "blender": "trimesh", "bullet": "pybullet", "drake": "drake", "genesis": "meshio", "gmsh": "gmsh",
+    "isaac": "usd-core", "mmg": "meshio", "mujoco": "mujoco", "netgen": "netgen-mesher", "newton": "newton", "paraview": "pyvista",
     "tetgen": "meshio", "usd": "usd-core"}
 BEGIN, END = "<!-- table: written by scripts/test_engines --docs -->", "<!-- end of table -->"
 
