@@ -40,8 +40,9 @@ std::string engine_usage(const Engine& engine, const std::filesystem::path& path
 /// Writes the mesh as this engine reads it (in metres, positive tets unless it wants others) and beside it, where there
 /// is one, a scene that drops the body on a plane and runs as it stands. All files appear, or none.
 ///
-/// The scene's stiffness is what the model says, unless that needs a shorter time step than the engine's default: then
-/// it is as stiff as that step allows if `material_is_default`, else the scene takes a shorter step.
+/// The scene's stiffness is what the model says, and its time step the engine's default unless that needs a shorter
+/// one. If `material_is_default`, it is instead a hundred times the pressure of the body's own weight, so that a body
+/// of any size hardly sags, or less where the engine's default step would not bear it.
 /// @return  The files written, the mesh's first.
 /// @throws InvalidInput  as engine_files(); IoError.
 std::vector<std::filesystem::path> write_for_engine(const Engine& engine, const std::filesystem::path& path,
