@@ -15,7 +15,7 @@ function(tetsoup_add_consumer_test name)
       "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}"
       "-DCMAKE_TOOLCHAIN_FILE=${CMAKE_TOOLCHAIN_FILE}" ${ARGN}
     --test-command consumer)
-  set_tests_properties(consumer.${name} PROPERTIES LABELS consumer)
+  set_tests_properties(consumer.${name} PROPERTIES LABELS consumer TIMEOUT 1800)  # it builds the core anew
 endfunction()
 
 # A surrounding project that prefers shared libraries, and has neither libpng nor tinygltf.
