@@ -49,20 +49,6 @@ Extent extent_of(const TetModel& model) {
   return e;
 }
 
-double volume_of(const TetMesh& mesh, std::uint32_t tet) {
-  const Tet& t = mesh.tets[tet];
-  const auto at = [&](std::size_t i) {
-    const Vec3& v = mesh.vertices[t[i]];
-    return std::array<double, 3>{v.x, v.y, v.z};
-  };
-  const auto a = at(0), b = at(1), c = at(2), d = at(3);
-  std::array<double, 3> u, v, w;
-  for (std::size_t i = 0; i < 3; ++i) u[i] = b[i] - a[i], v[i] = c[i] - a[i], w[i] = d[i] - a[i];
-  return (w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
-          w[2] * (u[0] * v[1] - u[1] * v[0])) /
-         6;
-}
-
 // Means by volume, for engines with one material a body.
 struct Means {
   double volume = 0, mass = 0, young = 0, poisson = 0;
@@ -72,7 +58,7 @@ Means means_of(const TetModel& model) {
   Means sum;
   for (std::uint32_t i = 0; i < model.mesh.tets.size(); ++i) {
     const Material& material = model.regions[region_of(model, i)].material;
-    const double volume = volume_of(model.mesh, i);
+    const double volume = signed_volume(corners_of(model.mesh, model.mesh.tets[i]));
     sum.volume += volume;
     sum.mass += volume * material.density;
     sum.young += volume * material.young;
