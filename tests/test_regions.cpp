@@ -43,7 +43,9 @@ TEST(Regions, vertices_near_a_named_piece_are_found) {
   const auto of_vertex = label_vertices(balls.mesh, balls.soup, balls.labels);
   for (std::size_t v = 0; v < of_vertex.size(); ++v) {
     const Vec3& p = balls.mesh.vertices[v];
-    if (std::abs(p.x) > 1) EXPECT_EQ(of_vertex[v], p.x < 0 ? 0U : 1U);
+    if (std::abs(p.x) > 1) {
+      EXPECT_EQ(of_vertex[v], p.x < 0 ? 0U : 1U);
+    }
   }
 }
 
