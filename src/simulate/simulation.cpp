@@ -6,6 +6,7 @@
 #include "simulate/build.h"
 #include "simulate/check.h"
 #include "simulate/measures.h"
+#include "simulate/saved_state.h"
 #include "simulate/substep.h"
 
 namespace tetsoup {
@@ -184,6 +185,15 @@ double Simulation::volume(std::size_t body) const {
 
 std::uint64_t Simulation::state_hash() const {
   return hash_state(state_->world);
+}
+
+std::vector<std::byte> Simulation::save_state() const {
+  return simulate::save_state(state_->world);
+}
+
+void Simulation::restore_state(std::span<const std::byte> state) {
+  simulate::restore_state(state_->world, state);
+  publish(state_->world);
 }
 
 }  // namespace tetsoup
