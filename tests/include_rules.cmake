@@ -4,7 +4,7 @@
 # The flow. A layer sees the public headers of itself and of what stands before it, and its own private headers.
 set(layers soup distance pseudo_volume lattice smooth quality readiness embed regions simulate pipeline io scene)
 # Public headers of a layer that has several.
-set(io_headers tet_model engines)
+set(io_headers tet_model engines animation)
 # Public headers without a layer; everybody sees them. They see each other.
 set(common_headers types error progress render_mesh)
 # Private folders that every layer sees.
