@@ -1,6 +1,8 @@
 // tetsoup simulate: a scene in, its motion out.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "arguments.h"
@@ -29,7 +31,10 @@ constexpr const char* kExamples =
     "  tetsoup simulate --list                              scenes that come with the tool\n"
     "  tetsoup simulate drop                                play one, and say how fast that went\n"
     "  tetsoup simulate drop --save-scene my.json           write it as a file, to be changed (docs/SCENES.md)\n"
-    "  tetsoup simulate my.json -o DIR                      every frame into a folder\n"
+    "  tetsoup simulate drop --preview                      a film to look at: drop.webp\n"
+    "  tetsoup simulate my.json -o DIR                      every frame for ParaView, DIR/frames.pvd\n"
+    "  tetsoup simulate my.json -o my.glb                   one animation for Blender, the web and game engines\n"
+    "  tetsoup simulate my.json -o skin.obj                 the surfaces of every frame: skin_0000.obj, ...\n"
     "  tetsoup simulate my.json -o DIR --resume             go on where Ctrl-C stopped it\n"
     "  tetsoup simulate my.json --seconds 2 --json -        numbers for scripts\n"
     "\n"
@@ -48,15 +53,35 @@ void save_scene(const std::string& path, const Scene& scene, bool quiet) {
   if (!quiet && path != "-") write_stdout(fmt::format("Wrote {}. Play it with: tetsoup simulate {}\n", path, path));
 }
 
+/// The usual places are not checked: nobody named them.
+bool is_frame_file(const std::string& path) {
+  static constexpr std::array<std::string_view, 6> kExtensions{".pvd", ".obj", ".ply", ".png", ".webp", ".glb"};
+  const std::string extension = lower_extension(path);
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+void check_frame_file(std::string_view flag, const std::string& path, Outputs& outputs) {
+  if (!is_frame_file(path))
+    throw IoError(
+        fmt::format("{} {}: frames are written into a folder, .pvd, .obj, .ply, .png, .webp or .glb", flag, path));
+  outputs.add(flag, path);
+}
+
 /// Whatever is wrong with the outputs is found here, before the work starts.
 void check_outputs(const SimulateOptions& options) {
   Outputs outputs(options.input);
   std::size_t folders = 0;
   for (const std::string& path : options.outputs) {
     if (!is_folder_output(path))
-      outputs.add("-o", path);
+      check_frame_file("-o", path, outputs);
     else if (++folders > 1)
       throw InvalidInput(fmt::format("-o {}: only one folder can be given", path));
+  }
+  if (options.preview && !options.preview->empty()) {
+    const std::string extension = lower_extension(*options.preview);
+    if (extension != ".png" && extension != ".webp")
+      throw IoError(fmt::format("--preview {}: pictures are .png, a film is .webp", *options.preview));
+    outputs.add("--preview", *options.preview);
   }
   if (options.json && *options.json != "-") outputs.add("--json", *options.json);
   if (options.resume && folders == 0) throw InvalidInput("--resume: name the folder that is to go on, with -o DIR");
@@ -122,7 +147,7 @@ void add_simulate_command(CLI::App& app) {
   simulate
       ->add_option_function<std::vector<std::string>>(
           "-o,--output", [options](const std::vector<std::string>& paths) { options->outputs = paths; },
-          "A folder for all frames; may be given again for files")
+          "A folder for .vtu frames, or .pvd .obj .ply .png series, or a film:\n.webp .glb; may be given several times")
       ->option_text("OUT")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -134,6 +159,14 @@ void add_simulate_command(CLI::App& app) {
   add_flag(
       *simulate, "--json", "FILE|-", [options](const std::string& text) { options->json = text; },
       "Write a report for scripts; - is standard output")
+      ->group(kReports);
+  simulate
+      ->add_option_function<std::vector<std::string>>(
+          "--preview",
+          [options](const std::vector<std::string>& names) { options->preview = names.empty() ? "" : names.front(); },
+          "Draw the frames: .webp for a film, .png for pictures (NAME.webp, or\nboth into the folder of -o)")
+      ->option_text("[FILE]")
+      ->expected(0, 1)
       ->group(kReports);
   add_threads_flag(*simulate);
   add_quiet_flag(*simulate, options->quiet);

@@ -14,9 +14,9 @@
 namespace tetsoup::cli {
 
 struct SimulateOptions {
-  std::string input;                 ///< Name of a built-in scene, or a file.
-  std::vector<std::string> outputs;  ///< A folder, and files.
-  std::optional<std::string> preview;
+  std::string input;                   ///< Name of a built-in scene, or a file.
+  std::vector<std::string> outputs;    ///< A folder, and files.
+  std::optional<std::string> preview;  ///< Empty: the usual place.
   std::optional<std::string> save_scene;
   std::optional<std::string> json;
   std::optional<double> seconds, fps;
@@ -25,6 +25,9 @@ struct SimulateOptions {
   bool resume = false;
   bool list = false;
   bool quiet = false;
+
+  /// All that frames go into.
+  std::vector<std::filesystem::path> frame_files() const;
 };
 
 /// Wall seconds of this run.

@@ -128,7 +128,7 @@ Scene make_twist() {
   turned.until = 3;
   turned.release = 4;
   body.pins = {end_of_beam(-1), turned};
-  body.place.translate = {0, 0, 0.8};
+  body.place.translate = {0, 0, 1.3};
   scene.bodies.push_back(body);
   scene.obstacles.push_back(ground());
   return scene;

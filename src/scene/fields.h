@@ -53,6 +53,7 @@ inline constexpr Range kAngleRange{-36000, 36000, "within -36000 and 36000 degre
 inline constexpr Range kSpinRange{-500000, 500000, "within -500000 and 500000 degrees/s"};
 inline constexpr Range kFrictionRange{0, 100, "0 to 100"};
 inline constexpr Range kSizeRange{1e-4, kFar, "0.0001 to 1e5 m"};
+inline constexpr Range kPlacedSizeRange{5e-5, 2e5, "0.0001 to 1e5 m"};  // a mesh is not just as long as its source
 inline constexpr Range kLengthRange{0, kFar, "above 0 and at most 1e5 m", true};
 inline constexpr Range kShareRange{0, 1, "above 0 and at most 1", true};
 inline constexpr Range kSeedRange{0, 9007199254740992.0, "a whole number from 0 to 2^53"};

@@ -72,6 +72,8 @@ class Loader {
     RenderMesh surface = make_surface(obstacle.source, loaded_.scene.folder);
     to_metres(unit_of(path, obstacle.source, surface.vertices), surface.vertices);
     TriangleSoup soup = clean_soup(triangles_of(surface), progress_).soup;
+    check_number(path + ": its longest side as placed, m", longest_side(soup.vertices) * obstacle.place.scale,
+                 kPlacedSizeRange);
     for (Vec3& p : soup.vertices) {
       const Vec3d at = placed(obstacle.place, to_double(p));
       for (const double v : {at.x, at.y, at.z}) check_number(member_path(path, "place"), v, kPlaceRange);
@@ -85,8 +87,12 @@ class Loader {
     const SceneBody& body = loaded_.scene.bodies[number];
     const std::size_t asset = find_asset(path, body);
     const std::vector<ScenePlace> places = places_of(body);
+    const double longest = longest_side(loaded_.assets[asset].mesh.vertices);
     std::vector<Pose> poses;
-    for (const ScenePlace& place : places) poses.push_back(pose_of(place));
+    for (const ScenePlace& place : places) {
+      check_number(path + ": its longest side as placed, m", longest * place.scale, kPlacedSizeRange);
+      poses.push_back(pose_of(place));
+    }
     const std::size_t first = loaded_.simulation.add_bodies(loaded_.assets[asset].mesh, body.material, poses);
     const std::string name = body.name.empty() ? name_of(body.source) : body.name;
     for (std::size_t i = 0; i < places.size(); ++i) {

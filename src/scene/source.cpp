@@ -1,6 +1,7 @@
 #include "scene/source.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/vec.h"
 #include "scene/check.h"
@@ -80,28 +81,37 @@ Vec3d random_vector(double most, std::uint64_t seed, std::uint64_t instance, std
   return {one(0), one(1), one(2)};
 }
 
+Box3 box_of(std::span<const Vec3> points) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box3 box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (const Vec3& p : points) {
+    if (!is_finite(p)) continue;
+    box.lo = min(box.lo, to_double(p));
+    box.hi = max(box.hi, to_double(p));
+  }
+  return box;
+}
+
 Vec3d radians(const Vec3d& degrees) {
   return degrees * kDegree;
 }
 
 }  // namespace
 
+double longest_side(std::span<const Vec3> points) {
+  const Box3 box = box_of(points);
+  return std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z});
+}
+
 Unit unit_of(const std::string& path, const SceneSource& source, std::span<const Vec3> points) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  Vec3 lo{kInfinity, kInfinity, kInfinity}, hi{-kInfinity, -kInfinity, -kInfinity};
-  for (const Vec3& p : points) {
-    if (!is_finite(p)) continue;
-    lo = min(lo, p);
-    hi = max(hi, p);
-  }
-  if (!(lo.x <= hi.x)) throw Problem(path, "there is no point in it");
-  const Vec3d extent = to_double(hi) - to_double(lo);
-  const double longest = std::max({extent.x, extent.y, extent.z});
+  const auto [lo, hi] = box_of(points);
+  const double longest = longest_side(points);
+  if (longest < 0) throw Problem(path, "there is no point in it");
   if (source.size && !(longest > 0)) throw Problem(member_path(path, "size"), "the source has no extent");
   Unit unit{source.size ? *source.size / longest : source.metres_per_unit.value_or(1), {}};
   check_number(path + ": its longest side, m", longest * unit.metres, kSizeRange);
   if (source.origin != SceneOrigin::Own) {
-    unit.origin = (to_double(lo) + to_double(hi)) * 0.5;
+    unit.origin = (lo + hi) * 0.5;
     if (source.origin == SceneOrigin::Bottom) unit.origin.z = lo.z;
   }
   return unit;

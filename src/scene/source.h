@@ -12,6 +12,9 @@ struct Unit {
   Vec3d origin;  ///< In the source's unit.
 };
 
+/// Of the box of all finite points; below 0 if there is none.
+double longest_side(std::span<const Vec3> points);
+
 /// @throws Problem  if the points have no extent, or one that no size or unit makes sense of.
 Unit unit_of(const std::string& path, const SceneSource& source, std::span<const Vec3> points);
 
