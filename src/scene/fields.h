@@ -177,7 +177,6 @@ template <class Visitor>
 void visit_fields(Visitor& v, SceneSource& s) {
   v("sample", s.sample, Text{});
   v("file", s.file, Text{});
-  v("tets_file", s.tets_file, Text{});
   v("box", s.box, kSizeRange);
   v("damage", s.damage, Range{0, 1, "at least 0 and below 1", false, true});
   v("seed", s.seed, kSeedRange);
@@ -192,6 +191,7 @@ template <class Visitor>
 void visit_fields(Visitor& v, SceneBody& b) {
   v("name", b.name, Text{});
   visit_fields(v, b.source);
+  v("tets_file", b.source.tets_file, Text{});
   v("mesh", b.mesh, Object{});
   v("material", b.material, Object{});
   v("place", b.place, Object{});
