@@ -32,7 +32,7 @@ struct ObstacleContact {
 };
 
 struct ContactSet {
-  std::vector<Contact> between;  ///< Ascending by vertex, then part; one for each two.
+  std::vector<Contact> between;  ///< Ascending by part, then vertex; one for each two.
   std::vector<ObstacleContact> with_obstacles;
 };
 
