@@ -120,15 +120,15 @@ TEST_F(SimulateTool, ctrl_c_without_a_folder_leaves_nothing) {
 }
 
 TEST_F(SimulateTool, films_and_pictures_are_drawn) {
-  report({"box.json", "--seconds", "0.05", "--preview"});
+  report({"box.json", "--seconds", "0.02", "--preview"});
   EXPECT_TRUE(read_text(in_folder("box.webp")).starts_with("RIFF"));
-  report({"box.json", "--seconds", "0.05", "-o", "x.glb", "-o", "skin.obj", "--preview", "x.png"});
+  report({"box.json", "--seconds", "0.02", "-o", "x.glb", "-o", "skin.obj", "--preview", "x.png"});
   EXPECT_TRUE(read_text(in_folder("x.glb")).starts_with("glTF"));
-  for (const char* name : {"skin_0000.obj", "skin_0003.obj", "x_0003.png"})
+  for (const char* name : {"skin_0000.obj", "skin_0001.obj", "x_0001.png"})
     EXPECT_TRUE(fs::exists(in_folder(name))) << name;
-  report({"box.json", "--seconds", "0.05", "-o", "dir", "--preview"});
-  report({"box.json", "--seconds", "0.1", "-o", "dir", "--preview", "--resume"});
-  EXPECT_TRUE(fs::exists(in_folder("dir") / "preview_0006.png"));
+  report({"box.json", "--seconds", "0.02", "-o", "dir", "--preview"});
+  report({"box.json", "--seconds", "0.04", "-o", "dir", "--preview", "--resume"});
+  EXPECT_TRUE(fs::exists(in_folder("dir") / "preview_0002.png"));
   EXPECT_TRUE(fs::exists(in_folder("dir") / "preview.webp"));
 }
 
