@@ -11,7 +11,7 @@ namespace tetsoup::animation {
 namespace {
 
 constexpr double kTolerance = 5e-4;     // Of the diagonal of the mesh's box: a quarter of a pixel in most pictures.
-constexpr std::size_t kMaxBasis = 128;  // Shapes while frames come; the weights of all frames are kept.
+constexpr std::size_t kMaxBasis = 192;  // Shapes while frames come; the weights of all frames are kept.
 
 std::vector<std::uint32_t> used_vertices(const TetMesh& mesh) {
   std::vector<bool> is_used(mesh.vertices.size());
