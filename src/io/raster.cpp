@@ -140,13 +140,33 @@ TriangleTarget::TriangleTarget(int width, int height)
       nearness_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
       colour_(nearness_.size()) {}
 
+std::array<int, 2> TriangleTarget::columns_of(const std::array<ScreenPoint, 3>& p) const {
+  return samples_within(std::min({p[0].x, p[1].x, p[2].x}), std::max({p[0].x, p[1].x, p[2].x}), 0, columns_);
+}
+
+std::array<int, 2> TriangleTarget::rows_of(const std::array<ScreenPoint, 3>& p, const Rows& rows) const {
+  return samples_within(std::min({p[0].y, p[1].y, p[2].y}), std::max({p[0].y, p[1].y, p[2].y}), std::max(rows.begin, 0),
+                        std::min(rows.end, rows_));
+}
+
+bool TriangleTarget::misses(const std::array<ScreenPoint, 3>& p, const Rows& rows) const {
+  const auto ys = rows_of(p, rows);
+  if (ys[0] > ys[1]) return true;
+  const auto xs = columns_of(p);
+  return xs[0] > xs[1];
+}
+
+void TriangleTarget::cover(const std::array<ScreenPoint, 3>& corners, const Rows& rows) {
+  if (misses(corners, rows)) return;
+  std::array<ScreenPoint, 3> p = corners;
+  if (doubled_area(p) < 0) std::swap(p[1], p[2]);
+  paint(p, rows, [](const std::array<double, 3>&) { return Rgb{}; });
+}
+
 // Side i lies opposite corner i: its value, which colour_at() takes, is twice the area between it and the place.
 template <class ColourAt>
 void TriangleTarget::paint(const std::array<ScreenPoint, 3>& p, const Rows& rows, const ColourAt& colour_at) {
-  // Most triangles of a fine surface lie between the samples.
-  const auto ys = samples_within(std::min({p[0].y, p[1].y, p[2].y}), std::max({p[0].y, p[1].y, p[2].y}),
-                                 std::max(rows.begin, 0), std::min(rows.end, rows_));
-  const auto xs = samples_within(std::min({p[0].x, p[1].x, p[2].x}), std::max({p[0].x, p[1].x, p[2].x}), 0, columns_);
+  const auto xs = columns_of(p), ys = rows_of(p, rows);
   if (ys[0] > ys[1] || xs[0] > xs[1]) return;
   const double area = doubled_area(p);
   if (!(area > 0)) return;

@@ -63,11 +63,12 @@ void Drawable::draw(TriangleTarget& target, const Rows& rows) const {
 void Drawable::draw_smooth(TriangleTarget& target, const Rows& rows) const {
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const Triangle& t = triangles_[i];
-    if (!is_visible(seen_[t[0]]) || !is_visible(seen_[t[1]]) || !is_visible(seen_[t[2]])) continue;
+    const std::array<ScreenPoint, 3> corners{seen_[t[0]], seen_[t[1]], seen_[t[2]]};
+    if (!std::all_of(corners.begin(), corners.end(), is_visible) || target.misses(corners, rows)) continue;
     std::array<Rgb, 3> colours{lit_[t[0]], lit_[t[1]], lit_[t[2]]};
     for (std::size_t c = 0; c < 3; ++c)
       if (!normals_.is_smooth(t, i, c)) colours[c] = light_.on(colour_, normals_.of_triangles[i]);
-    target.draw_smooth({seen_[t[0]], seen_[t[1]], seen_[t[2]]}, colours, rows);
+    target.draw_smooth(corners, colours, rows);
   }
 }
 
@@ -76,17 +77,18 @@ void Drawable::draw_faceted(TriangleTarget& target, const Rows& rows) const {
   const double alpha = std::clamp((typical_edge() - 3) / 14, 0.0, 1.0);
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const Triangle& t = triangles_[i];
-    if (!is_visible(seen_[t[0]]) || !is_visible(seen_[t[1]]) || !is_visible(seen_[t[2]])) continue;
+    const std::array<ScreenPoint, 3> corners{seen_[t[0]], seen_[t[1]], seen_[t[2]]};
+    if (!std::all_of(corners.begin(), corners.end(), is_visible) || target.misses(corners, rows)) continue;
     const Rgb face = light_.on(colour_, normals_.of_triangles[i]);
     const EdgeStyle edge{mix(face, palette::kInk, 0.6F), 0.9, static_cast<float>(0.7 * alpha)};
-    target.draw({seen_[t[0]], seen_[t[1]], seen_[t[2]]}, face, edge, rows);
+    target.draw(corners, face, edge, rows);
   }
 }
 
 void Drawable::draw_shadow(std::size_t ground, TriangleTarget& target, const Rows& rows) const {
   const std::vector<ScreenPoint>& shadow = shadows_[ground];
   if (!meets(shadow, rows)) return;
-  for (const Triangle& t : triangles_) target.draw({shadow[t[0]], shadow[t[1]], shadow[t[2]]}, {}, {}, rows);
+  for (const Triangle& t : triangles_) target.cover({shadow[t[0]], shadow[t[1]], shadow[t[2]]}, rows);
 }
 
 // Median length in pixels.
