@@ -95,6 +95,8 @@ inline Scene random_scene(std::uint64_t seed) {
   Scene scene;
   scene::visit_fields(fields, scene);
   scene.simulation.substeps = 1 + static_cast<int>(fields.below(6));
+  // The explicit solver takes as many substeps as the stiffest body needs, for each 1/60 s.
+  if (scene.simulation.solver == Solver::Potentials) scene.fps = std::max(scene.fps, 240.0);
   scene.seconds = 4 / scene.fps;
   const std::size_t bodies = 1 + fields.below(3);
   for (std::size_t i = 0; i < bodies; ++i) {

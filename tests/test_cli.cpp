@@ -15,7 +15,7 @@ TEST_F(Tool, without_words_it_names_the_command_to_start_with) {
 
 TEST_F(Tool, help_has_examples_on_every_level) {
   for (const Words& words : {Words{"--help"}, Words{"mesh", "--help"}, Words{"inspect", "--help"}, Words{"field", "-h"},
-                             Words{"sample", "--help"}}) {
+                             Words{"sample", "--help"}, Words{"simulate", "--help"}}) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.out.find("Examples:\n  tetsoup "), std::string::npos) << outcome.out;
