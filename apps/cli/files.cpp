@@ -55,7 +55,9 @@ namespace {
 
 void refuse_tets(const fs::path& path) {
   if (is_tet_file(path))
-    throw IoError(path.string() + ": this is a tet mesh already; `tetsoup inspect` shows its quality");
+    throw IoError(path.string() +
+                  ": this is a tet mesh already, where triangles are wanted; `tetsoup inspect` shows how good it is if "
+                  "it is .msh .vtk .vtu .mesh .npz or .node");
 }
 
 }  // namespace

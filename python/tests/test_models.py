@@ -74,6 +74,17 @@ def test_regions_are_the_nearest_named_part(mesh, bars):
         mesh.regions(surface, progress=lambda *_: False)
 
 
+def test_regions_may_be_the_connected_parts(mesh, bars):
+    triangles = tetsoup.read(bars)
+    labels, names = mesh.regions(triangles, by="part")
+    by_name = mesh.regions(bars, by="group")
+    assert names == ["part_1", "part_2"] and labels.dtype == np.int32
+    assert np.array_equal(labels, by_name.labels)
+    assert np.array_equal(mesh.vertices_near(triangles, "part_2"), mesh.vertices_near(bars, "right"))
+    with pytest.raises(tetsoup.InvalidInput, match="'part_1' to 'part_2'"):
+        mesh.vertices_near(triangles, "part_3")
+
+
 def test_vertices_to_be_held_are_chosen_by_place_and_by_name(mesh, bars):
     x = mesh.points[:, 0]
     assert np.array_equal(mesh.vertices_below(1, (1, 0, 0)), np.flatnonzero(x <= 1))

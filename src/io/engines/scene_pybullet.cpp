@@ -54,12 +54,6 @@ def simulate(seconds=1.0, view=False):
     while view and pybullet.isConnected():
         pybullet.stepSimulation()
     return start, now, (now - before) / STEP
-
-
-if __name__ == "__main__":
-    _, ends, velocities = simulate(view="--view" in sys.argv)
-    speed = numpy.sqrt((velocities**2).sum(axis=1).mean())
-    print(f"after one second: lowest point {ends[:, 2].min():.4f} m, speed {speed:.4f} m/s")
 )";
 
 }  // namespace
@@ -67,21 +61,21 @@ if __name__ == "__main__":
 std::string pybullet_scene(const SceneInput& input) {
   const Drop drop = plan_drop(input, kLimit);
   const auto [lambda, mu] = lame(drop);
-  return filled(kScene, {{"stem", drop.name},
-                         {"file", quoted_python(input.mesh_file)},
-                         {"step", "1 / " + brief(std::round(1 / drop.time_step))},
-                         {"height", brief(drop.height)},
-                         {"mass", brief(drop.mass)},
-                         {"young", brief(drop.young)},
-                         {"poisson", brief(drop.poisson)},
-                         {"why", drop.stiffness_why},
-                         {"mu", brief(mu)},
-                         {"lambda", brief(lambda)},
-                         {"pins", pin_list(input.model, 0, ", ")},
-                         {"x", brief(drop.x)},
-                         {"y", brief(drop.y)},
-                         {"lift", brief(drop.lift)},
-                         {"quat", upright_xyzw(input.model.up, ", ")}});
+  return filled_script(kScene, {{"stem", drop.name},
+                                {"file", quoted_python(input.mesh_file)},
+                                {"step", "1 / " + brief(std::round(1 / drop.time_step))},
+                                {"height", brief(drop.height)},
+                                {"mass", brief(drop.mass)},
+                                {"young", brief(drop.young)},
+                                {"poisson", brief(drop.poisson)},
+                                {"why", drop.stiffness_why},
+                                {"mu", brief(mu)},
+                                {"lambda", brief(lambda)},
+                                {"pins", pin_list(input.model, 0, ", ")},
+                                {"x", brief(drop.x)},
+                                {"y", brief(drop.y)},
+                                {"lift", brief(drop.lift)},
+                                {"quat", upright_xyzw(input.model.up, ", ")}});
 }
 
 }  // namespace tetsoup
