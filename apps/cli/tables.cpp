@@ -122,7 +122,7 @@ std::string tabulate_connected_parts(const TriangleSoup& soup) {
   std::string text;
   for (std::size_t i = 0; i < std::min(sizes.size(), kMost); ++i)
     text += row("triangles of " + parts.names[i], grouped(sizes[i].triangles), box_text(sizes[i].lo, sizes[i].hi));
-  if (sizes.size() > kMost) text += fmt::format("  and {} smaller ones\n", grouped(sizes.size() - kMost));
+  if (sizes.size() > kMost) text += fmt::format("  and {} more\n", grouped(sizes.size() - kMost));
   return text;
 }
 
