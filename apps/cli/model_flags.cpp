@@ -160,7 +160,8 @@ void add_model_flags(CLI::App& app, ModelOptions& options) {
         if (text != "x" && text != "y" && text != "z") throw InvalidInput("--up " + text + ": must be x, y or z");
         options.up = text == "x" ? UpAxis::X : text == "y" ? UpAxis::Y : UpAxis::Z;
       },
-      "Axis of the model that points up in scenes (y for .obj .gltf .glb,\nelse z)")
+      "Axis of the model that points up in scenes (y for .obj .gltf .glb,\nelse z) and in the preview (as the shape "
+      "stands)")
       ->group(kGroup);
 }
 
