@@ -66,6 +66,15 @@ TEST_F(Scenes, hold_nothing_unless_asked) {
   expect_all(text_of("calculix", model), {"NSET=HELD_IN_SCENE\n1, 2, 3, 4\n"});
 }
 
+TEST_F(Scenes, pybullet_refuses_a_body_of_pieces_rather_than_hang) {
+  TetModel model = two_materials();
+  expect_all(text_of("bullet", model), {"PIECES = 1 ", "if PIECES > 1:"});
+  for (const Vec3& v : two_tets().vertices) model.mesh.vertices.push_back({v.x + 9, v.y, v.z});
+  model.mesh.tets.push_back({5, 6, 7, 8});
+  model.tet_regions.push_back(0);
+  expect_all(text_of("bullet", model), {"PIECES = 2 "});
+}
+
 TEST_F(Scenes, turn_the_axis_that_points_up) {
   TetModel model = two_materials();
   expect_all(text_of("mujoco", model), {"quat=\"0.70710678 0.70710678 0 0\""});

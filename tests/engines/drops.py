@@ -39,8 +39,8 @@ def run_mujoco(path):
 
 # What engines do not take, each seen in a run. A strict mark: the day one of them works, its test says so.
 SHORTCOMINGS = {
-    ("bullet", "pr2", 500): "loadSoftBody() does not return for a body of several pieces",
-    ("bullet", "pr2", 2000): "loadSoftBody() does not return for a body of several pieces",
+    ("bullet", "pr2", 500): "loadSoftBody() never returns for a body of several pieces; the scene says so instead",
+    ("bullet", "pr2", 2000): "loadSoftBody() never returns for a body of several pieces; the scene says so instead",
     ("bullet", "bunny", 2000): "loses 13 % of its volume: the default step bears only a softness at which it sags by "
                                "half",
     ("newton", "pr2", 500): "two loose pieces of 4 and 6 vertices still fly at 7 m/s; the robot itself is at rest",

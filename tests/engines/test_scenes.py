@@ -113,3 +113,9 @@ def test_newton_reads_the_stiffness_from_the_mesh_file(write):
     mesh = newton.TetMesh.create_from_file(str(written.path(".npz")))
     assert numpy.allclose(mesh.k_mu, 8e4) and numpy.allclose(mesh.k_lambda, 8e4) and mesh.density == 500
     written.agrees_with(*load_newton(written))
+
+
+def test_bullets_scene_says_that_several_pieces_cannot_be_loaded(write):
+    written = write("bullet", "pr2", 500)
+    ran = subprocess.run([sys.executable, written.path("_pybullet.py")], capture_output=True, text=True, timeout=60)
+    assert ran.returncode == 1 and "pieces" in ran.stderr

@@ -194,6 +194,13 @@ std::string escaped_xml(std::string_view text) {
   return result;
 }
 
+Unions pieces_of(const TetMesh& mesh) {
+  Unions pieces(mesh.vertices.size());
+  for (const Tet& t : mesh.tets)
+    for (std::size_t i = 1; i < 4; ++i) pieces.join(t[0], t[i]);
+  return pieces;
+}
+
 std::string pin_list(const TetModel& model, std::uint32_t base, std::string_view between) {
   constexpr std::size_t kPerLine = 16;
   const std::vector<std::uint32_t> pins = pinned_vertices(model);

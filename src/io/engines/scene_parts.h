@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/unions.h"
 #include "io/engines/scenes.h"
 
 namespace tetsoup {
@@ -55,6 +56,8 @@ std::string filled_script(std::string_view text, std::initializer_list<std::pair
 std::string brief(double value);
 std::string quoted_python(std::string_view text);
 std::string escaped_xml(std::string_view text);
+/// Vertices that tets join are of one set.
+Unions pieces_of(const TetMesh& mesh);
 /// Pinned vertices in lines of sixteen.
 std::string pin_list(const TetModel& model, std::uint32_t base, std::string_view between);
 

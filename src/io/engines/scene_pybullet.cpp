@@ -1,4 +1,5 @@
 // PyBullet's scene: a script with a deformable world.
+#include <algorithm>
 #include <cmath>
 
 #include "io/engines/scene_parts.h"
@@ -25,10 +26,13 @@ MASS = @mass@  # kg
 # Young's modulus of @young@ Pa and a Poisson ratio of @poisson@: @why@.
 MU, LAMBDA = @mu@, @lambda@  # Pa
 HELD = [@pins@]  # vertices
+PIECES = @pieces@  # of the body: loadSoftBody() never returns for several
 
 
 def simulate(seconds=1.0, view=False):
     """Positions at the start, positions at the end, velocities at the end."""
+    if PIECES > 1:
+        sys.exit(f"PyBullet cannot load a body of {PIECES} pieces: write it anew with --min-part 0.05 or --rho-min 0.2")
     pybullet.connect(pybullet.GUI if view else pybullet.DIRECT)
     pybullet.resetSimulation(pybullet.RESET_USE_DEFORMABLE_WORLD)
     pybullet.setGravity(0, 0, -9.81)
@@ -56,6 +60,13 @@ def simulate(seconds=1.0, view=False):
     return start, now, (now - before) / STEP
 )";
 
+std::size_t piece_count(const TetMesh& mesh) {
+  Unions pieces = pieces_of(mesh);
+  std::vector<bool> is_piece(mesh.vertices.size());
+  for (const Tet& t : mesh.tets) is_piece[pieces.find(t[0])] = true;
+  return static_cast<std::size_t>(std::count(is_piece.begin(), is_piece.end(), true));
+}
+
 }  // namespace
 
 std::string pybullet_scene(const SceneInput& input) {
@@ -72,6 +83,7 @@ std::string pybullet_scene(const SceneInput& input) {
                                 {"mu", brief(mu)},
                                 {"lambda", brief(lambda)},
                                 {"pins", pin_list(input.model, 0, ", ")},
+                                {"pieces", std::to_string(piece_count(input.model.mesh))},
                                 {"x", brief(drop.x)},
                                 {"y", brief(drop.y)},
                                 {"lift", brief(drop.lift)},
