@@ -32,7 +32,7 @@ def table(rows):
         proven[row["engine"]][row["what"]][row["body"], row["tets"]] = row
     total = len(BODIES) * len(SIZES)
     columns = ["`--for`", "read by", "counts and volume", "a second's fall ends near rest",
-               "seconds simulated a second, 500 / 2,000 tets"]
+               "seconds simulated a processor's second, 500 / 2,000 tets"]
     text = [f"| {' | '.join(columns)} |", "|---" * len(columns) + "|"]
     for engine in sorted(proven):
         kept = proven[engine]
