@@ -124,10 +124,10 @@ def regions(mesh: TetMesh, surface: Any, by: PartKind, progress: Progress | None
         raise InvalidInput(f"by = {by!r}, must be one of 'object', 'group', 'material', 'part'")
     source = as_surface(surface)
     if by == "part":
-        parts = _core.label_parts(*as_soup(source))
-        of_tets = _core.label_tets(mesh._handle, *as_soup(source), parts.view(np.uint32), progress)
-        found, labels = np.unique(of_tets, return_inverse=True)  # of thousands of loose leaves most have no tet
-        return Regions(labels.astype(np.int32), [f"part_{part + 1}" for part in found])
+        parts = np.asarray(_core.label_parts(*as_soup(source)), np.uint32)
+        of_tets = _core.label_tets(mesh._handle, *as_soup(source), parts, progress)
+        found, places = np.unique(of_tets, return_inverse=True)  # of thousands of loose leaves most have no tet
+        return Regions(places.astype(np.int32), [f"part_{part + 1}" for part in found])
     of_parts = [getattr(part, by) for part in source.parts] or [""]
     names = sorted(dict.fromkeys(of_parts), key=lambda name: not name)  # in the order of the file, the nameless last
     labels = _label_triangles(source, [names.index(name) for name in of_parts])
@@ -155,7 +155,7 @@ def _other_parts(source: RenderMesh, name: str) -> npt.NDArray[np.uint32]:
             f"name = {name!r}, must be of an object, a group or a material: {known}, or of a connected part: "
             f"'part_1' to 'part_{count}'"
         )
-    return (parts != names.index(name)).astype(np.uint32)
+    return np.asarray(parts != names.index(name), np.uint32)
 
 
 def _label_triangles(source: RenderMesh, of_parts: list[int]) -> npt.NDArray[np.uint32]:
