@@ -209,5 +209,49 @@ TEST(Simulate, WhatIsOutOfRangeIsRefusedByNameAndChangesNothing) {
   EXPECT_EQ(simulation.body_count(), 0U);
 }
 
+/// Two soft blocks, one of them held and pulled, the other falling on it.
+Simulation busy_simulation() {
+  Simulation simulation;
+  simulation.add_plane({0, 0, 1}, 0);
+  SimMaterial soft;
+  soft.elastic.young = 2e4;
+  simulation.add_bodies(block(), soft, std::vector<Pose>{{.translate = {0, 0, 0.01}}, {.translate = {0.05, 0, 0.23}}});
+  simulation.pin({0, 0});
+  simulation.add_spring({0, 5}, {1, 0, 1}, 10);
+  return simulation;
+}
+
+TEST(Simulate, GoesOnFromASavedStateToTheBit) {
+  Simulation first = busy_simulation(), second = busy_simulation();
+  for (int i = 0; i < 20; ++i) first.step(kFrame);
+  first.move_spring(0, {0, 1, 1});
+  ASSERT_GT(first.report().contacts, 0U);
+  second.restore_state(first.save_state());
+  EXPECT_EQ(second.state_hash(), first.state_hash());
+  EXPECT_EQ(second.time(), first.time());
+  for (int i = 0; i < 20; ++i) {
+    first.step(kFrame);
+    second.step(kFrame);
+  }
+  EXPECT_EQ(second.state_hash(), first.state_hash());
+}
+
+TEST(Simulate, DamagedOrForeignStatesChangeNothing) {
+  Simulation simulation = busy_simulation();
+  simulation.step(kFrame);
+  const std::uint64_t hash = simulation.state_hash();
+  const std::vector<std::byte> state = simulation.save_state();
+  for (const std::size_t at : {std::size_t{0}, state.size() / 2, state.size() - 1}) {
+    std::vector<std::byte> damaged = state;
+    damaged[at] ^= std::byte{4};
+    EXPECT_THROW(simulation.restore_state(damaged), InvalidInput);
+    EXPECT_THROW(simulation.restore_state(std::span(state).first(at)), InvalidInput);
+  }
+  Simulation other;
+  other.add_body(block());
+  EXPECT_THROW(simulation.restore_state(other.save_state()), InvalidInput);
+  EXPECT_EQ(simulation.state_hash(), hash);
+}
+
 }  // namespace
 }  // namespace tetsoup

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "tetsoup/progress.h"
 #include "tetsoup/readiness.h"
@@ -163,6 +164,13 @@ class Simulation {
   double volume(std::size_t body) const;  ///< Signed, of its simulated tets as they are now.
   /// Of all positions and velocities, to the bit.
   std::uint64_t state_hash() const;
+
+  /// All that steps have changed, for restore_state(); good on machines with the same order of bytes.
+  std::vector<std::byte> save_state() const;
+  /// Goes on where a simulation stood that had been built in the same way (bodies, pins, springs, attachments and
+  /// obstacles), to the bit.
+  /// @throws InvalidInput  if the bytes are damaged or of a simulation that was built otherwise; nothing changes then.
+  void restore_state(std::span<const std::byte> state);
 
  private:
   struct State;

@@ -6,6 +6,7 @@
 #include "simulate/build.h"
 #include "simulate/check.h"
 #include "simulate/measures.h"
+#include "simulate/saved_state.h"
 #include "simulate/substep.h"
 
 namespace tetsoup {
@@ -109,8 +110,9 @@ void Simulation::step(double dt) {
   for (int i = 0; i < substeps; ++i) {
     if (i % interval == 0) find_contacts(world, h * std::min(interval, substeps - i));
     move_freely(world, h);
-    solve_links(world, h);
+    solve_springs(world, h);
     solve_contacts(world, h);
+    solve_attachments(world, h);
   }
   world.time += dt;
   world.report.substeps = substeps;
@@ -184,6 +186,15 @@ double Simulation::volume(std::size_t body) const {
 
 std::uint64_t Simulation::state_hash() const {
   return hash_state(state_->world);
+}
+
+std::vector<std::byte> Simulation::save_state() const {
+  return simulate::save_state(state_->world);
+}
+
+void Simulation::restore_state(std::span<const std::byte> state) {
+  simulate::restore_state(state_->world, state);
+  publish(state_->world);
 }
 
 }  // namespace tetsoup
