@@ -95,6 +95,7 @@ inline Scene random_scene(std::uint64_t seed) {
   Scene scene;
   scene::visit_fields(fields, scene);
   scene.simulation.substeps = 1 + static_cast<int>(fields.below(6));
+  scene.simulation.max_substeps = 1 + static_cast<int>(fields.below(12));
   // The explicit solver takes as many substeps as the stiffest body needs, for each 1/60 s.
   if (scene.simulation.solver == Solver::Potentials) scene.fps = std::max(scene.fps, 240.0);
   scene.seconds = 4 / scene.fps;

@@ -234,6 +234,7 @@ void visit_fields(Visitor& v, Scene& s) {
   v("solver", s.simulation.solver,
     Words{Word<Solver>{"implicit", Solver::Implicit}, Word<Solver>{"potentials", Solver::Potentials}});
   v("substeps", s.simulation.substeps, Range{1, 10000, "a whole number from 1 to 10000"});
+  v("max_substeps", s.simulation.max_substeps, Range{1, 10000, "a whole number from 1 to 10000"});
   v("contact_interval", s.simulation.contact_interval, Range{1, 10000, "a whole number from 1 to 10000"});
   v("contacts", s.simulation.contacts,
     Words{Word<Contacts>{"all", Contacts::All}, Word<Contacts>{"between", Contacts::Between},
