@@ -202,6 +202,7 @@ TEST(Simulate, WhatIsOutOfRangeIsRefusedByNameAndChangesNothing) {
   EXPECT_THROW(simulation.add_body(block(), material), InvalidInput);
   EXPECT_THROW(simulation.add_body(block(), {}, {.translate = {1e6, 0, 0}}), InvalidInput);
   EXPECT_THROW(simulation.add_body(block(), {}, {.scale = 0}), InvalidInput);
+  EXPECT_THROW(simulation.add_body(block(), {}, {.scale = 1e-6}), InvalidInput);
   EXPECT_THROW(simulation.add_plane({0, 0, 0}, 0), InvalidInput);
   EXPECT_THROW(simulation.step(0), InvalidInput);
   EXPECT_THROW(simulation.step(std::numeric_limits<double>::quiet_NaN()), InvalidInput);

@@ -125,8 +125,8 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
 
   /// @return  The body's number: 0, 1, 2, ...
-  /// @throws InvalidInput  if material or pose is out of range, or a vertex would lie beyond 1e5 m. Tets that cannot be
-  ///                       simulated are left out and counted.
+  /// @throws InvalidInput  if material or pose is out of range, a vertex would lie beyond 1e5 m, or edges are shorter
+  ///                       than 1e-6 m in the mean. Tets that cannot be simulated are left out and counted.
   std::size_t add_body(const TetMesh& mesh, const SimMaterial& material = {}, const Pose& pose = {});
   /// Many bodies of one make, which share what they are made of and are faster for it.
   /// @return  The number of the first.
