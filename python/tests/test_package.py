@@ -41,11 +41,15 @@ def test_every_option_of_the_library_has_a_keyword_with_a_type():
         (tetsoup.LatticeOptions, "lattice"),
         (tetsoup.SmoothOptions, "smooth"),
         (tetsoup.MeshOptions, ""),
+        (tetsoup.SimulationOptions, "simulation"),
+        (tetsoup.MaterialOptions, "material"),
+        (tetsoup.PoseOptions, "pose"),
     ):
         assert set(typing.get_type_hints(group)) == set(_core.default_options(stage))
     signature = inspect.signature(tetsoup.tetrahedralize)
     assert signature.parameters["rho_min"].default == tetsoup.default_options()["rho_min"]
     assert "rho_min" in tetsoup.tetrahedralize.__doc__ and "rho_min" not in tetsoup.smooth.__doc__
+    assert inspect.signature(tetsoup.Simulation.add_body).parameters["young"].default == 1e5
 
 
 def test_defaults_are_the_librarys(cube):
