@@ -14,7 +14,7 @@ mesh = tetsoup.tetrahedralize(soup, tets=1500)
 simulation = tetsoup.Simulation(substeps=20)
 simulation.add_plane()
 scale = 0.15 / mesh.quality.volume ** (1 / 3)  # a bunny is then 0.3 m long
-body = simulation.add_body(mesh, young=3e4, scale=scale, rotate=(60, 0, 0), translate=(0, 0, 0.4))
+body = simulation.add_body(mesh, young=3e4, scale=scale, rotate=(60, 0, 0), translate=(0, 0, 0.3))
 surface, positions = mesh.embed(soup), simulation.positions(body)  # the latter a view: every step moves it
 drawn = pyvista.PolyData.from_regular_faces(surface.deform(positions), soup.faces)
 plotter, images = pyvista.Plotter(off_screen=True, window_size=(400, 400)), []

@@ -1,0 +1,151 @@
+"""The same meshes and scenes in every engine: real-time factors at the engine's own step, and at the largest that is right."""
+import json
+import math
+import subprocess
+import sys
+
+import engines
+from judge import MOST_SOFT
+import scenes
+
+LADDER = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512]  # substeps of a frame
+SECONDS = 1.0  # simulated
+BUDGET = 20.0  # s of an engine's own clock, after which a run is cut short
+REPEATS = 2
+MOST_TRIES = 2  # of more substeps than usual, each twice as many
+HEAP = (4, "bunny", 500)
+CASES = [("bunny", 500), ("armadillo", 2000), ("robot", 10000)]
+ALL_CASES = [(body, tets) for tets in (500, 2000, 10000) for body in ("bunny", "armadillo", "robot")]
+QUICK_CASES = [("robot", 500)]
+
+
+def run(name, scene, substeps, budget=BUDGET):
+    """A row of numbers; {"stable": False, "why": ...} where the engine gives none."""
+    command = [sys.executable, str(scenes.ROOT / "bench/simulation/drop.py"), name, scene["path"], str(substeps),
+               str(SECONDS), str(budget)]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=4 * budget + 60, check=False)
+    except subprocess.TimeoutExpired:
+        return {"stable": False, "why": "does not return", "substeps": substeps}
+    lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
+    if done.returncode != 0 or not lines:
+        last = (done.stderr.strip().splitlines() or ["no output"])[-1][:80]
+        return {"stable": False, "why": "crashes" if done.returncode < 0 else last, "substeps": substeps}
+    return json.loads(lines[-1]) | {"substeps": substeps}
+
+
+class Case:
+    """One body of one size in all engines."""
+
+    def __init__(self, folder, body, tets, names):
+        self.scene, self.column = scenes.drop(folder, body, tets), scenes.column(folder, tets)
+        self.title = f"{body}, {self.scene['tets']:,} tets"
+        self.names, self.seen = names, {}
+
+    def look(self, name, substeps):
+        """The column first: where it fails, the body need not be tried."""
+        if (name, substeps) not in self.seen:
+            column = run(name, self.column, substeps)
+            row = column if not column["stable"] else run(name, self.scene, substeps)
+            row["softness"] = column.get("softness", math.nan)
+            row["right"] = bool(row["stable"] and 1 / MOST_SOFT < row["softness"] < MOST_SOFT)
+            self.seen[name, substeps] = row
+            print(f"    {name:22} {substeps:4} {describe(row)}", flush=True)
+        return self.seen[name, substeps]
+
+    def largest_right_step(self, name):
+        """The fewest substeps with which the engine is right, by a walk from its own; None: none of the ladder."""
+        place = min(range(len(LADDER)), key=lambda i: abs(LADDER[i] - engines.ENGINES[name].usual))
+        if self.look(name, LADDER[place])["right"]:
+            while place > 0 and self.look(name, LADDER[place - 1])["right"]:
+                place -= 1
+            return LADDER[place]
+        for _ in range(MOST_TRIES):
+            place += 1
+            row = self.look(name, LADDER[place])
+            if row["right"]:
+                return LADDER[place]
+            if row.get("simulated", SECONDS) < SECONDS / 2:
+                return None  # too slow to be tried further
+        return None
+
+    def measure(self):
+        print(f"  {self.title}", flush=True)
+        picked = []
+        for name in self.names:
+            if self.scene["tets"] > engines.ENGINES[name].most_tets:
+                continue
+            usual = engines.ENGINES[name].usual
+            self.look(name, usual)
+            best = self.largest_right_step(name)
+            picked += [(name, "its own", usual)] + ([(name, "largest right", best)] if best else [])
+        repeat([(self.seen[name, substeps], name, self.scene) for name, _, substeps in picked])
+        return [row_of(self.title, name, kind, self.seen[name, substeps]) for name, kind, substeps in picked]
+
+
+def repeat(timed):
+    """Every row again, in turns, and its least time: whatever else the machine does can only slow a run down."""
+    for _ in range(REPEATS - 1):
+        for row, name, scene in timed:
+            if row["stable"] and row["seconds"] < BUDGET / 3:
+                again = run(name, scene, row["substeps"])
+                if again["stable"] and again["factor"] > row["factor"]:
+                    row.update({key: again[key] for key in ("seconds", "factor", "ns")})
+
+
+def heap_rows(folder, rows, names):
+    """Bodies that fall on each other, with the steps that were right for one of them."""
+    count, body, tets = HEAP
+    scene = scenes.heap(folder, body, tets, count)
+    title, timed = f"heap of {count} {body}, {count * scene['tets']:,} tets", []
+    print(f"  {title}", flush=True)
+    for name in names:
+        if not engines.ENGINES[name].between:
+            continue
+        known = {row["substeps"] for row in rows if row["engine"] == name}
+        for substeps in sorted(known | {engines.ENGINES[name].usual}):
+            kind = "its own" if substeps == engines.ENGINES[name].usual else "largest right"
+            row = run(name, scene, substeps)
+            row["softness"], row["right"] = math.nan, row["stable"]
+            print(f"    {name:22} {substeps:4} {describe(row)}", flush=True)
+            timed.append((row, name, scene, kind))
+    repeat([line[:3] for line in timed])
+    return [row_of(title, name, kind, row) for row, name, _, kind in timed]
+
+
+def row_of(case, name, kind, row):
+    return {"case": case, "engine": name, "kind": kind} | row
+
+
+def describe(row):
+    if not row["stable"]:
+        return f"not stable: {row['why']}"
+    return f"{'right' if row['right'] else 'stable'}, softness {row['softness']:.2f}, factor {row['factor']:.3g}"
+
+
+# --- table -----------------------------------------------------------------------------------------------------------
+
+def number(value, form):
+    return "–" if value is None or math.isnan(value) else form.format(value)
+
+
+def table(rows):
+    header = ["scene", "engine", "step", "substeps a frame", "real-time factor", "ns a tet and substep", "softness",
+              "energy", "volume", "verdict", "ours is faster by"]
+    own = {row["case"]: row["factor"] for row in rows if row["engine"] == "tetsoup" and row["right"]}  # the last: largest
+    own |= {row["case"]: row["factor"] for row in rows if row["engine"] == "tetsoup" and row["right"]
+            and row["kind"] == "largest right"}
+    lines = []
+    for row in rows:
+        cells = [row["case"], row["engine"], row["kind"], str(row["substeps"])]
+        if row["stable"]:
+            verdict = "right" if row["right"] else "too soft" if row["softness"] > 1 else "too stiff"
+            if row["simulated"] < SECONDS - 1e-6:
+                verdict += f", first {row['simulated']:.2f} s"
+            ratio = f"{own[row['case']] / row['factor']:.3g}" if row["case"] in own and row["right"] else ""
+            cells += [f"{row['factor']:.3g}", f"{row['ns']:,.3g}", number(row["softness"], "{:.2f}"),
+                      f"{100 * (row['energy'] - 1):+.1f} %", f"{100 * row['swelling']:.1f} %", verdict, ratio]
+        else:
+            cells += ["–", "–", number(row.get("softness"), "{:.2f}"), "–", "–", f"not stable: {row['why']}", ""]
+        lines.append(cells)
+    return header, lines

@@ -1,0 +1,66 @@
+"""Meshes of the same objects by several meshers, each simulated by tetsoup.Simulation."""
+import json
+import subprocess
+import sys
+
+import meshers
+import scenes
+
+PACKAGES = ["tetsoup", "pytetwild", "tetgen", "gmsh", "pymeshfix", "scipy"]
+QUICK_OBJECTS = ["robot"]
+TIMEOUT = 900  # s
+
+
+def child(script, *arguments):
+    """Its line of JSON, or why there is none."""
+    command = [sys.executable, str(scenes.ROOT / "bench/simulation" / script), *map(str, arguments)]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT, check=False)
+    except subprocess.TimeoutExpired:
+        return {"why": f"> {TIMEOUT} s"}
+    lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
+    if done.returncode == 0 and lines:
+        return json.loads(lines[-1])
+    last = (done.stderr.strip().splitlines() or ["no output"])[-1]
+    return {"why": "crashes" if done.returncode < 0 else last[:80]}
+
+
+def measure(name, folder, versions):
+    """A row for every mesher that is installed."""
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = []
+    print(f"  {name}", flush=True)
+    for maker in meshers.MAKERS:
+        if any(need not in versions for need in meshers.NEEDS[maker.split(",")[0]]):
+            continue
+        path = folder / f"{name}_{maker.replace(', ', '_')}.npz"
+        row = {"object": name, "maker": maker, "meshing": child("meshers.py", maker, name, path)}
+        if "why" not in row["meshing"]:
+            row |= child("simulate_mesh.py", path)
+        print(f"    {maker:22} {describe(row)}", flush=True)
+        rows.append(row)
+    return rows
+
+
+def describe(row):
+    if "potentials" not in row:
+        return row.get("why") or row["meshing"].get("why", "")
+    return f"{row['tets']} tets, step {1e6 * row['step']:.0f} us, {row['implicit']['per_second']:.3g} s a second"
+
+
+def table(rows):
+    header = ["object", "mesh", "tets", "smallest angle", "meshing s", "largest explicit step, us", "explicit work, M tet steps a second",
+              "Implicit: s a second", "Implicit stable", "Potentials: step, us", "Potentials: s a second"]
+    lines = []
+    for row in rows:
+        cells = [row["object"], row["maker"]]
+        if "potentials" not in row:
+            lines.append([*cells, "–", "–", "–", "–", "–", "–", row.get("why") or row["meshing"]["why"], "–", "–"])
+            continue
+        implicit, potentials = row["implicit"], row["potentials"]
+        lines.append([
+            *cells, f"{row['tets']:,}", f"{row['angle']:.1f}", f"{row['meshing']['seconds']:.2g}", f"{1e6 * row['step']:.3g}",
+            f"{row['tets'] / row['step'] / 1e6:.3g}", f"{implicit['per_second']:.3g}",
+            "yes" if implicit["stable"] else implicit["why"], f"{1e6 * potentials['step']:.3g}",
+            f"{potentials['per_second']:.3g}"])
+    return header, lines
