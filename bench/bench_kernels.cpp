@@ -9,15 +9,16 @@
 #include "kernel/clip_rows.h"
 #include "kernel/cone_reach.h"
 #include "kernel/event_masks.h"
+#include "kernel/relax_tets.h"
 
 namespace tetsoup::bench {
 
 namespace {
 
 template <class Body>
-void add_kernel_rows(const std::string& what, const Body& body) {
+void add_kernel_rows(const std::string& what, Body body) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    add_row("kernel_" + what + "_on_" + hwy::TargetName(target), [target, body](benchmark::State& state) {
+    add_row("kernel_" + what + "_on_" + hwy::TargetName(target), [target, body](benchmark::State& state) mutable {
       hwy::SetSupportedTargetsForTest(target);
       for (auto _ : state) body();
       hwy::SetSupportedTargetsForTest(0);
@@ -34,6 +35,27 @@ std::vector<float> random_values(std::size_t count) {
 }
 
 constexpr int kCalls = 1000;  // of a kernel in one iteration of a row
+
+/// Sixteen unit tets beside each other, with corners of their own, at rest and of some stiffness.
+struct UnitTets {
+  std::vector<kernel::Place> places;
+  std::vector<kernel::TetBatch> batches{1};
+  std::vector<kernel::TetRotations> rotations{1};
+
+  UnitTets() {
+    for (std::uint32_t lane = 0; lane < kernel::kTetLanes; ++lane) {
+      for (std::uint32_t c = 0; c < 4; ++c) {
+        batches[0].corners[c][lane] = static_cast<std::uint32_t>(places.size());
+        places.push_back({c == 1 ? 1.01F : 0, c == 2 ? 0.99F : 0, c == 3 ? 1.0F : 0, 1});
+        for (std::uint32_t axis = 0; axis < 3; ++axis)
+          batches[0].responses[3 * c + axis][lane] = c == 0 ? -0.1F : c == axis + 1 ? 0.1F : 0;
+      }
+      for (std::uint32_t axis = 0; axis < 3; ++axis) batches[0].gradients[4 * axis][lane] = 1;
+      batches[0].volume_compliance[lane] = 1;
+      rotations[0].q[3][lane] = 1;
+    }
+  }
+};
 
 }  // namespace
 
@@ -82,6 +104,12 @@ void add_kernel_rows() {
       kernel::nearest_squares(points, i % 7, 0, 0, squares);
       benchmark::DoNotOptimize(squares);
     }
+  });
+  add_kernel_rows("relax_tets", [tets = UnitTets()]() mutable {
+    const std::vector<kernel::Place> start = tets.places;
+    for (int i = 0; i < kCalls; ++i)
+      kernel::relax_tets(tets.batches, tets.rotations, {tets.places.data(), start.data(), 0.5F});
+    benchmark::DoNotOptimize(tets.places);
   });
 }
 

@@ -81,6 +81,7 @@ void add_rows(const std::vector<int>& sizes) {
   add_read_field_rows();
   add_file_rows();
   add_kernel_rows();
+  add_simulation_rows();
   for (const int voxels : sizes) {
     add_stage_rows({.voxels = voxels});
     add_full_distance_row({.voxels = voxels});

@@ -37,5 +37,6 @@ void add_full_distance_row(const Case& which);  ///< Apart, since it takes long.
 void add_thread_rows(const Case& which);        ///< Distance and signs with 1, 2, all and four times all cores.
 void add_slider_rows(int voxels);               ///< One option changed, the distance known.
 void add_embed_rows(int voxels);                ///< A million vertices in the tets, and moved with them.
+void add_simulation_rows();                     ///< The scenes that come with the tool, and tets that only bend.
 
 }  // namespace tetsoup::bench

@@ -1,5 +1,5 @@
 # Installs tetsoup so that find_package(tetsoup) gives tetsoup::tetsoup, and COMPONENTS io also tetsoup::io.
-# Two export sets, since only the second needs libpng and tinygltf. The install component `tetsoup_development` holds
+# Two export sets, since only the second needs libpng, tinygltf and libwebp. The install component `tetsoup_development` holds
 # libraries, headers and package files without the tool.
 include(CMakePackageConfigHelpers)
 
@@ -18,6 +18,7 @@ endfunction()
 tetsoup_install_library(tetsoup tetsoup-targets)
 if(TETSOUP_IO)
   tetsoup_install_library(tetsoup_io tetsoup-io-targets)
+  install(FILES cmake/FindWebP.cmake DESTINATION ${tetsoup_package_dir} COMPONENT tetsoup_development)
 endif()
 
 configure_package_config_file(cmake/tetsoup-config.cmake.in ${PROJECT_BINARY_DIR}/tetsoup-config.cmake

@@ -2,9 +2,9 @@
 # header it names.
 
 # The flow. A layer sees the public headers of itself and of what stands before it, and its own private headers.
-set(layers soup distance pseudo_volume lattice smooth quality readiness embed regions simulate pipeline io)
+set(layers soup distance pseudo_volume lattice smooth quality readiness embed regions simulate pipeline io scene)
 # Public headers of a layer that has several.
-set(io_headers tet_model engines)
+set(io_headers tet_model engines animation)
 # Public headers without a layer; everybody sees them. They see each other.
 set(common_headers types error progress render_mesh)
 # Private folders that every layer sees.
@@ -71,13 +71,13 @@ function(include_system_complaint out path layer header)
   set(complaint "")
   if(header MATCHES "^(tetsoup|base|kernel)/")
     set(complaint "our own headers are included with quotes")
-  elseif(layer STREQUAL "io" AND path MATCHES "^src/" OR layer STREQUAL "outside")
+  elseif(layer MATCHES "^(io|scene)$" AND path MATCHES "^src/" OR layer STREQUAL "outside")
     # No further rule.
   elseif(header MATCHES "^(tbb|oneapi|hwy|Eigen|unsupported)/" AND path MATCHES "^src/")
     # In its home, as seen above.
   elseif(header MATCHES "[/.]")
     set(complaint "only standard C++ headers here")
-  elseif(header MATCHES "^(iostream|fstream|filesystem)$" AND NOT layer STREQUAL "io")
+  elseif(header MATCHES "^(iostream|fstream|filesystem)$" AND NOT layer MATCHES "^(io|scene)$")
     set(complaint "the core reads no files and prints nothing")
   endif()
   set(${out} "${complaint}" PARENT_SCOPE)
@@ -95,7 +95,9 @@ function(include_own_complaint out path layer header)
     elseif(other STREQUAL "common" OR other STREQUAL layer OR layer STREQUAL "outside")
       # Seen by everybody; its own; users see all.
     elseif(other STREQUAL "samples")
-      set(complaint "samples serve tests, apps, benches and examples only")
+      if(NOT layer STREQUAL "scene")
+        set(complaint "samples serve scenes, tests, apps, benches and examples only")
+      endif()
     elseif(layer MATCHES "^(common|samples)$" OR other_position GREATER position)
       set(complaint "${layer} stands before ${other} in the flow")
     endif()

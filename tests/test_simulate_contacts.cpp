@@ -9,7 +9,6 @@
 #include "shapes.h"
 #include "simulate/obstacles.h"
 #include "simulate/rest_surface.h"
-#include "simulate/vertex_hash.h"
 #include "tetsoup/simulate.h"
 
 namespace tetsoup {
@@ -169,25 +168,6 @@ TEST(SimulateContacts, RandomScenesGiveNumbersOnly) {
       simulation.step(random.uniform(0.001, 0.03));
       for (std::size_t body = 0; body < 4; ++body)
         for (const Vec3& p : simulation.positions(body)) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << scene;
-    }
-  }
-}
-
-TEST(VertexHash, EveryVertexInABoxIsVisited) {
-  test::Random random(2);
-  std::vector<simulate::HashedVertex> vertices;
-  for (std::uint32_t i = 0; i < 500; ++i)
-    vertices.push_back({to_float({random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)}), i});
-  const simulate::VertexHash hash(vertices, 0.3);
-  for (int box = 0; box < 50; ++box) {
-    const Vec3 lo = to_float({random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)});
-    const Vec3 hi{lo.x + 0.5F, lo.y + 1, lo.z + (box == 0 ? 100.0F : 0.2F)};
-    std::vector<int> seen(vertices.size(), 0);
-    hash.visit_box(lo, hi, [&](const simulate::HashedVertex& v) { seen[v.slot] = 1; });
-    for (const auto& v : vertices) {
-      const bool in = v.place.x >= lo.x && v.place.y >= lo.y && v.place.z >= lo.z && v.place.x <= hi.x &&
-                      v.place.y <= hi.y && v.place.z <= hi.z;
-      EXPECT_LE(static_cast<int>(in), seen[v.slot]);
     }
   }
 }

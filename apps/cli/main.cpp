@@ -6,7 +6,7 @@
 //   2    wrong usage or an option out of range
 //   3    a file cannot be read, parsed or written
 //   4    the file holds no finite triangle: nothing can be meshed
-//   130  cancelled by Ctrl-C (SIGINT) or SIGTERM; no file is left
+//   130  cancelled by Ctrl-C (SIGINT) or SIGTERM; no file is left, but for the folder of a simulation, which can go on
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -34,6 +34,7 @@ constexpr const char* kExamples =
     "  tetsoup mesh torus.obj -o torus.msh          mesh it: about 2,000 tets, everything chosen for you\n"
     "  tetsoup inspect torus.msh                    see how good the tets are\n"
     "  tetsoup mesh --help                          all that can be chosen\n"
+    "  tetsoup simulate drop                        let a soft robot fall\n"
     "\n"
     "Exit codes: 0 done, 1 internal error or out of memory, 2 wrong usage or option, 3 a file cannot be read or\n"
     "written, 4 nothing in the file can be meshed, 130 cancelled.";
@@ -68,6 +69,8 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
     return fail(kExitFile, error.what());
   } catch (const CannotMesh& error) {
     return fail(kExitCannotMesh, error.what());
+  } catch (const CancelledMidway& stop) {
+    return fail(kExitCancelled, stop.what());
   } catch (const Cancelled&) {
     return fail(kExitCancelled, "cancelled; no file was written");
   }
@@ -86,6 +89,7 @@ int run(int argc, char** argv) {
   add_inspect_command(app);
   add_field_command(app);
   add_sample_command(app);
+  add_simulate_command(app);
   if (argc <= 1) {
     fmt::print("{}", kShortHelp);
     return 0;

@@ -187,12 +187,16 @@ void add_quiet_flag(CLI::App& app, bool& quiet) {
   app.add_flag("--quiet,-q", quiet, "Print nothing but errors")->group(kRunGroup);
 }
 
-void add_run_flags(CLI::App& app, RunOptions& options) {
+void add_threads_flag(CLI::App& app) {
   add_flag(
       app, "--threads", "N",
       [](const std::string& text) { set_thread_count(parse_whole("--threads", text, kThreads)); },
       "Threads to use; the result never depends on it (0: all cores)")
       ->group(kRunGroup);
+}
+
+void add_run_flags(CLI::App& app, RunOptions& options) {
+  add_threads_flag(app);
   add_flag(
       app, "--memory", "GB",
       [&options](const std::string& text) { options.memory_gb = parse_number("--memory", text, kPositive); },

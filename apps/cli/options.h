@@ -49,6 +49,7 @@ void add_lattice_flags(CLI::App& app, LatticeOptions& options);
 void add_cover_flags(CLI::App& app, LatticeOptions& options);
 void add_topology_flags(CLI::App& app, TopologyOptions& options);
 void add_smooth_flags(CLI::App& app, SmoothOptions& options);
+void add_threads_flag(CLI::App& app);
 void add_quiet_flag(CLI::App& app, bool& quiet);
 void add_run_flags(CLI::App& app, RunOptions& options);
 

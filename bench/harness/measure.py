@@ -80,7 +80,7 @@ def last_line(text):
 
 # --- rows of tetsoup_bench -------------------------------------------------------------------------------------------
 
-NAME = re.compile(r"^(?P<what>\w+)(?:/(?P<voxels>\d+))?(?:/soup:(?P<soup>\w+))?(?:/threads:(?P<threads>\d+))?")
+NAME = re.compile(r"^(?P<what>[\w-]+)(?:/(?P<voxels>\d+))?(?:/soup:(?P<soup>\w+))?(?:/threads:(?P<threads>\d+))?")
 STANDARD = {"name", "run_name", "run_type", "family_index", "per_family_instance_index", "repetitions", "repetition_index",
             "threads", "iterations", "real_time", "cpu_time", "time_unit", "bytes_per_second", "items_per_second",
             "error_occurred", "error_message", "label"}

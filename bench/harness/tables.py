@@ -84,6 +84,35 @@ def embedding_table(results):
     return (["1M vertices", *TIMES], lines) if lines else None
 
 
+def nanoseconds(row, milliseconds):
+    """Wall time for a tet and substep, all threads."""
+    return f"{milliseconds * 1e6 / row.counters['tets'] / row.counters['substeps']:.1f}"
+
+
+def scenes_table(results):
+    lines = []
+    for label, what, target in targets.SCENES:
+        row = results.find(what)
+        if row is None or row.best_ms is None:
+            continue
+        best, median = (row.counters["seconds"] * 1e3 / time for time in (row.best_ms, row.median_ms))
+        met = "" if target is None else "yes" if median >= target else "best only" if best >= target else "no"
+        lines.append([label, f"{row.counters['tets']:,.0f}", f"{row.counters['skin_faces']:,.0f}",
+                      f"{row.counters['contacts']:,.0f}", "–" if target is None else f"{target:g}", f"{best:.2f}",
+                      f"{median:.2f}", nanoseconds(row, row.best_ms), met])
+    header = ["scene", "tets", "faces of skins", "contacts a frame", "target x real time", "best x real time",
+              "median x real time", "ns a tet and substep", "met"]
+    return (header, lines) if lines else None
+
+
+def bending_table(results):
+    rows = [(label, results.find(what)) for label, what in targets.BENDING]
+    lines = [[label, f"{row.counters['tets']:,.0f}", ms(row.best_ms), nanoseconds(row, row.best_ms),
+              nanoseconds(row, row.cpu_ms)] for label, row in rows if row and row.best_ms]
+    header = ["body", "tets", "ms a second", "ns a tet and substep", "of processor time"]
+    return (header, lines) if lines else None
+
+
 def same_results(rows):
     """Do rows of the same work agree on what came out? Counters that are times or rates are not among them."""
     return "yes" if all(row.counters == rows[0].counters for row in rows) else "NO"
@@ -215,6 +244,8 @@ TABLES = [
     ("stages", "Stages against their targets", stages_table),
     ("sliders", "Slider steps, distance known, 3K tets", sliders_table),
     ("embedding", "Embedding a million vertices, 3K tets", embedding_table),
+    ("scenes", "Scenes, skins moved every frame, nothing drawn", scenes_table),
+    ("bending", "Bending alone", bending_table),
     ("memory", "Peak memory of the tool", memory_table),
     ("growth", "Growth with the grid", growth_table),
     ("threads", "Threads", threads_table),

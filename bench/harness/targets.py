@@ -33,6 +33,18 @@ EMBEDDING = [
 ]
 EMBEDDING_VOXELS = 128
 
+# (label, row, times real time at least)
+SCENES = [
+    ("`drop`", "play_drop", None),
+    ("`robots-on-tree`", "play_robots-on-tree", 10),
+    ("`robots-on-tree-massive`", "play_robots-on-tree-massive", 0.5),
+    ("`stack`", "play_stack", None),
+    ("`twist`", "play_twist", None),
+    ("`cantilever`", "play_cantilever", None),
+    ("`drop` with 10,000 tets", "play_drop_10k", 10),
+]
+BENDING = [("3,000 tets", "bend_3k"), ("10,000 tets", "bend_10k"), ("100,000 tets", "bend_100k")]
+
 TOOL_TETS = {64: 5000}  # on other grids:
 DEFAULT_TETS = 3000
 

@@ -2,19 +2,12 @@
 
 #include <png.h>
 
-#include <algorithm>
-
 #include "tetsoup/error.h"
 
 namespace tetsoup {
 
 std::vector<std::byte> encode_png(const Image& image) {
-  std::vector<png_byte> rows;
-  rows.reserve(image.pixels.size() * 3);
-  for (const Rgb& c : image.pixels)
-    for (const float value : {c.r, c.g, c.b})
-      rows.push_back(static_cast<png_byte>(std::clamp(value, 0.0F, 1.0F) * 255 + 0.5F));
-
+  const std::vector<std::uint8_t> rows = rgb_bytes(image);
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   header.width = static_cast<png_uint_32>(image.width);

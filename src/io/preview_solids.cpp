@@ -67,23 +67,7 @@ void Stage::show_shadow(Image& image) const {
   constexpr int kBlur = 7, kBlurPasses = 3;  // Three box blurs look like one Gaussian.
   const int width = panel_.width / kShadowPixels + 1, height = panel_.height / kShadowPixels + 1;
   std::vector<float> soft = shadow_.coverage();
-  const auto blur_lines = [&](int lines, int line_step, int count, int step) {
-    std::vector<float> line(static_cast<std::size_t>(count));
-    for (int l = 0; l < lines; ++l) {
-      const auto cell = [&](int i) -> float& { return soft[static_cast<std::size_t>(l * line_step + i * step)]; };
-      for (int i = 0; i < count; ++i) line[static_cast<std::size_t>(i)] = cell(i);
-      for (int i = 0; i < count; ++i) {
-        float sum = 0;
-        for (int j = std::max(0, i - kBlur); j <= std::min(count - 1, i + kBlur); ++j)
-          sum += line[static_cast<std::size_t>(j)];
-        cell(i) = sum / (2 * kBlur + 1);
-      }
-    }
-  };
-  for (int pass = 0; pass < kBlurPasses; ++pass) {
-    blur_lines(height, width, width, 1);
-    blur_lines(width, 1, height, width);
-  }
+  blur(soft, width, height, kBlur, kBlurPasses);
   for (int y = 0; y < panel_.height; ++y) {
     for (int x = 0; x < panel_.width; ++x) {
       // Bilinear between the shadow's pixels.

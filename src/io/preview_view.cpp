@@ -14,6 +14,10 @@ double component(const Vec3d& v, int axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
+Vec3d axis_vector(int axis) {
+  return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
+}
+
 Vec3d unit(const Vec3d& v) {
   return v * (1 / length(v));
 }
@@ -43,8 +47,9 @@ PreviewView::PreviewView(const std::vector<Vec3d>& points, int up_axis, int widt
   size_ = length(hi - lo);
   if (!(size_ > 0)) size_ = 1;
 
-  vertical_ = up_axis == 2 ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
-  level_ = {Vec3d{1, 0, 0}, up_axis == 2 ? Vec3d{0, -1, 0} : Vec3d{0, 0, 1}};
+  vertical_ = axis_vector(up_axis);
+  level_ = {axis_vector(up_axis == 0 ? 1 : 0), up_axis == 1 ? Vec3d{0, 0, 1} : Vec3d{0, 0, -1}};
+  if (up_axis == 2) level_[1] = {0, -1, 0};
   towards_eye_ = unit(level_[0] * 0.52 + level_[1] + vertical_ * 0.50);
   right_ = unit(cross(vertical_, towards_eye_));
   up_ = cross(towards_eye_, right_);
@@ -73,6 +78,16 @@ ScreenPoint PreviewView::project_unscaled(const Vec3d& p) const {
 ScreenPoint PreviewView::project(const Vec3d& p) const {
   const ScreenPoint q = project_unscaled(p);
   return {q.x * scale_ + shift_x_, q.y * scale_ + shift_y_, q.nearness};
+}
+
+Vec3d PreviewView::eye() const {
+  return centre_ + towards_eye_ * (kEyeDistance * size_);
+}
+
+Vec3d PreviewView::ray(double x, double y) const {
+  // At the depth of the centre, where nearness is 1 / kEyeDistance.
+  const double a = (x - shift_x_) / scale_ * kEyeDistance, b = (y - shift_y_) / scale_ * kEyeDistance;
+  return (right_ * a - up_ * b - towards_eye_ * kEyeDistance) * size_;
 }
 
 Vec3d PreviewView::on_floor(const Vec3d& p) const {

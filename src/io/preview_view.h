@@ -16,7 +16,8 @@ bool is_drawable(const TetMesh& mesh, const Tet& tet);
 /// Three-quarter view from the front and above; the object fills the panel.
 class PreviewView {
  public:
-  /// @param points  All that must fit; not empty.
+  /// @param points   All that must fit; not empty.
+  /// @param up_axis  0, 1 or 2.
   PreviewView(const std::vector<Vec3d>& points, int up_axis, int width, int height);
 
   ScreenPoint project(const Vec3d& p) const;
@@ -24,6 +25,8 @@ class PreviewView {
   const Vec3d& towards_eye() const { return towards_eye_; }
   const Vec3d& right() const { return right_; }
   const Vec3d& up() const { return up_; }
+  Vec3d eye() const;
+  Vec3d ray(double x, double y) const;   ///< From the eye through a place on the screen, in samples as project() gives.
   Vec3d on_floor(const Vec3d& p) const;  ///< Straight below p, at the height of the lowest point.
   /// Level axes of the object that look to the viewer's right and to the viewer.
   const std::array<Vec3d, 2>& level_axes() const { return level_; }

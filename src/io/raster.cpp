@@ -25,12 +25,24 @@ std::array<int, 2> clipped(double low, double high, int count) {
           static_cast<int>(std::ceil(std::clamp(high, -1.0, count - 1.0)))};
 }
 
+double doubled_area(const std::array<ScreenPoint, 3>& p) {
+  return (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
+}
+
 }  // namespace
 
 void Image::blend(int x, int y, const Rgb& colour, float alpha) {
   if (x < 0 || y < 0 || x >= width || y >= height || alpha <= 0) return;
   Rgb& pixel = at(x, y);
   pixel = mix(pixel, colour, std::min(alpha, 1.0F));
+}
+
+std::vector<std::uint8_t> rgb_bytes(const Image& image) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(image.pixels.size() * 3);
+  for (const Rgb& c : image.pixels)
+    for (const float value : {c.r, c.g, c.b}) bytes.push_back(to_byte(value));
+  return bytes;
 }
 
 void fill_rect(Image& image, const Rect& rect, const Rgb& colour) {
@@ -82,6 +94,26 @@ void round_corners(Image& image, const Rect& rect, double radius, const Rgb& out
   }
 }
 
+void blur(std::vector<float>& values, int width, int height, int radius, int passes) {
+  const auto blur_lines = [&](int lines, int line_step, int count, int step) {
+    std::vector<float> line(static_cast<std::size_t>(count));
+    for (int l = 0; l < lines; ++l) {
+      const auto cell = [&](int i) -> float& { return values[static_cast<std::size_t>(l * line_step + i * step)]; };
+      for (int i = 0; i < count; ++i) line[static_cast<std::size_t>(i)] = cell(i);
+      for (int i = 0; i < count; ++i) {
+        float sum = 0;
+        for (int j = std::max(0, i - radius); j <= std::min(count - 1, i + radius); ++j)
+          sum += line[static_cast<std::size_t>(j)];
+        cell(i) = sum / static_cast<float>(2 * radius + 1);
+      }
+    }
+  };
+  for (int pass = 0; pass < passes; ++pass) {
+    blur_lines(height, width, width, 1);
+    blur_lines(width, 1, height, width);
+  }
+}
+
 TriangleTarget::TriangleTarget(int width, int height)
     : width_(width),
       height_(height),
@@ -90,25 +122,15 @@ TriangleTarget::TriangleTarget(int width, int height)
       nearness_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
       colour_(nearness_.size()) {}
 
-void TriangleTarget::draw(const std::array<ScreenPoint, 3>& corners, const Rgb& fill, const EdgeStyle& edge) {
-  std::array<ScreenPoint, 3> p = corners;
-  const auto doubled_area = [&] {
-    return (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
-  };
-  if (doubled_area() < 0) std::swap(p[1], p[2]);
-  const double area = doubled_area();
+// Side i lies opposite corner i: its value, which colour_at() takes, is twice the area between it and the place.
+template <class ColourAt>
+void TriangleTarget::paint(const std::array<ScreenPoint, 3>& p, const ColourAt& colour_at) {
+  const double area = doubled_area(p);
   if (!(area > 0)) return;
   const auto xs = clipped(std::min({p[0].x, p[1].x, p[2].x}), std::max({p[0].x, p[1].x, p[2].x}), columns_);
   const auto ys = clipped(std::min({p[0].y, p[1].y, p[2].y}), std::max({p[0].y, p[1].y, p[2].y}), rows_);
-
-  // Side i lies opposite corner i: its value is the distance from it, times its length.
-  std::array<double, 3> step{}, inverse_length{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const ScreenPoint &a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
-    step[i] = -(b.y - a.y);
-    inverse_length[i] = 1 / std::max(1e-9, std::hypot(b.x - a.x, b.y - a.y));
-  }
-  const double reach = edge.width * kSupersampling / 2 + 0.5;
+  std::array<double, 3> step{};
+  for (std::size_t i = 0; i < 3; ++i) step[i] = -(p[(i + 2) % 3].y - p[(i + 1) % 3].y);
   for (int y = ys[0]; y <= ys[1]; ++y) {
     std::array<double, 3> side{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -122,16 +144,45 @@ void TriangleTarget::draw(const std::array<ScreenPoint, 3>& corners, const Rgb& 
             static_cast<float>((side[0] * p[0].nearness + side[1] * p[1].nearness + side[2] * p[2].nearness) / area);
         if (near > nearness_[at]) {
           nearness_[at] = near;
-          const double d =
-              std::min({side[0] * inverse_length[0], side[1] * inverse_length[1], side[2] * inverse_length[2]});
-          const float line = edge.alpha * static_cast<float>(std::clamp(reach - d, 0.0, 1.0));
-          const Rgb c = mix(fill, edge.colour, line);
+          const Rgb c = colour_at(side);
           colour_[at] = {to_byte(c.r), to_byte(c.g), to_byte(c.b), 255};
         }
       }
       for (std::size_t i = 0; i < 3; ++i) side[i] += step[i];
     }
   }
+}
+
+void TriangleTarget::draw(const std::array<ScreenPoint, 3>& corners, const Rgb& fill, const EdgeStyle& edge) {
+  std::array<ScreenPoint, 3> p = corners;
+  if (doubled_area(p) < 0) std::swap(p[1], p[2]);
+  std::array<double, 3> inverse_length{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ScreenPoint &a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
+    inverse_length[i] = 1 / std::max(1e-9, std::hypot(b.x - a.x, b.y - a.y));
+  }
+  const double reach = edge.width * kSupersampling / 2 + 0.5;
+  paint(p, [&](const std::array<double, 3>& side) {
+    // A side's value is the distance from it, times its length.
+    const double d = std::min({side[0] * inverse_length[0], side[1] * inverse_length[1], side[2] * inverse_length[2]});
+    return mix(fill, edge.colour, edge.alpha * static_cast<float>(std::clamp(reach - d, 0.0, 1.0)));
+  });
+}
+
+void TriangleTarget::draw_smooth(const std::array<ScreenPoint, 3>& corners, const std::array<Rgb, 3>& colours) {
+  std::array<ScreenPoint, 3> p = corners;
+  std::array<Rgb, 3> c = colours;
+  if (doubled_area(p) < 0) {
+    std::swap(p[1], p[2]);
+    std::swap(c[1], c[2]);
+  }
+  const double to_share = 1 / doubled_area(p);
+  paint(p, [&](const std::array<double, 3>& side) {
+    const auto s0 = static_cast<float>(side[0] * to_share), s1 = static_cast<float>(side[1] * to_share);
+    const float s2 = 1 - s0 - s1;
+    return Rgb{c[0].r * s0 + c[1].r * s1 + c[2].r * s2, c[0].g * s0 + c[1].g * s1 + c[2].g * s2,
+               c[0].b * s0 + c[1].b * s1 + c[2].b * s2};
+  });
 }
 
 std::vector<float> TriangleTarget::coverage() const {

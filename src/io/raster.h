@@ -43,6 +43,9 @@ struct Image {
   void blend(int x, int y, const Rgb& colour, float alpha);
 };
 
+/// Three bytes a pixel, row after row.
+std::vector<std::uint8_t> rgb_bytes(const Image& image);
+
 /// A point in pixels, y down.
 struct Point {
   double x = 0, y = 0;
@@ -55,6 +58,10 @@ void draw_strokes(Image& image, const std::vector<std::array<Point, 2>>& segment
 
 /// A rounded rectangle's outline one pixel wide, and `outside` colour in the four corners beyond it.
 void round_corners(Image& image, const Rect& rect, double radius, const Rgb& outline, const Rgb& outside);
+
+/// Rows of numbers smoothed by box filters of 2 `radius` + 1, run `passes` times along rows and columns; zero beyond
+/// the edges.
+void blur(std::vector<float>& values, int width, int height, int radius, int passes);
 
 /// A corner on the screen: supersampled pixels, y down, and one over the distance from the eye, so that planes are
 /// linear.
@@ -77,6 +84,8 @@ class TriangleTarget {
   TriangleTarget(int width, int height);
 
   void draw(const std::array<ScreenPoint, 3>& corners, const Rgb& fill, const EdgeStyle& edge);
+  /// A colour for every corner, blended between them.
+  void draw_smooth(const std::array<ScreenPoint, 3>& corners, const std::array<Rgb, 3>& colours);
 
   /// Share of every pixel that triangles cover.
   std::vector<float> coverage() const;
@@ -85,6 +94,8 @@ class TriangleTarget {
   void resolve(Image& image, int x, int y) const;
 
  private:
+  template <class ColourAt>
+  void paint(const std::array<ScreenPoint, 3>& p, const ColourAt& colour_at);
   float nearness_at(int x, int y) const;
   std::vector<float> ambient() const;
 

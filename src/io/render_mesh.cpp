@@ -2,12 +2,14 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/require.h"
 #include "io/atomic_file.h"
 #include "io/file_names.h"
 #include "io/number_text.h"
+#include "io/obj_text.h"
 #include "tetsoup/error.h"
 #include "tetsoup/io.h"
 
@@ -44,16 +46,8 @@ void cut_into_fans(const RenderMesh& mesh, const Add& add) {
 }
 
 /// One-based; 0, which no reader takes for an index, where there is none.
-void append_index(std::string& text, std::uint32_t index) {
-  append_number(text, index == kNone ? 0 : std::uint64_t{index} + 1);
-}
-
-/// A name that ends its line and does not start a new one.
-void append_name_line(std::string& text, const char* keyword, const std::string& name) {
-  text += keyword;
-  if (!name.empty()) text += ' ';
-  for (const char c : name) text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  text += '\n';
+void append_index(std::string& text, std::uint32_t index, std::size_t first) {
+  append_number(text, index == kNone ? 0 : first + index + 1);
 }
 
 void append_changed_names(std::string& text, const RenderMesh::Part& from, const RenderMesh::Part& to) {
@@ -62,37 +56,43 @@ void append_changed_names(std::string& text, const RenderMesh::Part& from, const
   if (from.material != to.material) append_name_line(text, "usemtl", to.material);
 }
 
-std::string obj_text(const RenderMesh& mesh) {
-  std::string text;
-  for (const Vec3& v : mesh.vertices) append_line(text += "v ", v.x, v.y, v.z);
+}  // namespace
+
+void append_name_line(std::string& text, const char* keyword, const std::string& name) {
+  text += keyword;
+  if (!name.empty()) text += ' ';
+  for (const char c : name) text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  text += '\n';
+}
+
+void append_obj(std::string& text, const RenderMesh& mesh, const ObjPlace& place) {
+  for (const Vec3& v : place.vertices) append_line(text += "v ", v.x, v.y, v.z);
   for (const Vec2& t : mesh.texcoords) append_line(text += "vt ", t.x, t.y);
-  for (const Vec3& n : mesh.normals) append_line(text += "vn ", n.x, n.y, n.z);
+  for (const Vec3& n : place.normals) append_line(text += "vn ", n.x, n.y, n.z);
   const auto choice = [](const std::vector<std::uint32_t>& choices, std::size_t corner) {
     return choices.empty() ? kNone : choices[corner];
   };
-  RenderMesh::Part part;
+  RenderMesh::Part part{place.object, {}, {}};
   std::size_t corner = 0;
   for (std::size_t face = 0; face < mesh.face_sizes.size(); ++face) {
     if (!mesh.face_parts.empty()) {
-      const RenderMesh::Part& next = mesh.parts[mesh.face_parts[face]];
+      RenderMesh::Part next = mesh.parts[mesh.face_parts[face]];
+      if (!place.object.empty()) next.object = place.object + (next.object.empty() ? "" : "." + next.object);
       append_changed_names(text, part, next);
-      part = next;
+      part = std::move(next);
     }
     text += 'f';
     for (const std::size_t end = corner + mesh.face_sizes[face]; corner < end; ++corner) {
-      append_index(text += ' ', mesh.corners[corner]);
+      append_index(text += ' ', mesh.corners[corner], place.first_vertex);
       const std::uint32_t texcoord = choice(mesh.corner_texcoords, corner);
-      const std::uint32_t normal = choice(mesh.corner_normals, corner);
+      const std::uint32_t normal = place.normals.empty() ? kNone : choice(mesh.corner_normals, corner);
       if (texcoord != kNone || normal != kNone) text += '/';
-      if (texcoord != kNone) append_index(text, texcoord);
-      if (normal != kNone) append_index(text += '/', normal);
+      if (texcoord != kNone) append_index(text, texcoord, place.first_texcoord);
+      if (normal != kNone) append_index(text += '/', normal, 0);
     }
     text += '\n';
   }
-  return text;
 }
-
-}  // namespace
 
 TriangleSoup triangles_of(const RenderMesh& mesh) {
   TriangleSoup soup{mesh.vertices, {}};
@@ -135,7 +135,9 @@ void write_render_mesh(const std::filesystem::path& path, const RenderMesh& mesh
     throw IoError("cannot write '" + path.string() + "': render meshes are written as .obj");
   require_whole(mesh);
   AtomicFile file(path);
-  file.write(obj_text(mesh));
+  std::string text;
+  append_obj(text, mesh, {mesh.vertices, mesh.normals, {}, 0, 0});
+  file.write(text);
   file.commit();
 }
 

@@ -32,7 +32,7 @@ struct ObstacleContact {
 };
 
 struct ContactSet {
-  std::vector<Contact> between;  ///< Ascending by vertex, then part; one for each two.
+  std::vector<Contact> between;  ///< Ascending by part, then vertex; one for each two.
   std::vector<ObstacleContact> with_obstacles;
 };
 
@@ -42,7 +42,9 @@ void find_contacts(World& world, double horizon);
 /// Pushes and rubs, after all parts have moved freely for h.
 void solve_contacts(World& world, double h);
 
-/// Springs and attachments, likewise.
-void solve_links(World& world, double h);
+/// Before contacts, so that no spring pulls through an obstacle,
+void solve_springs(World& world, double h);
+/// and after them, so that what is attached stays together.
+void solve_attachments(World& world, double h);
 
 }  // namespace tetsoup::simulate

@@ -8,17 +8,15 @@
 #include "base/vec.h"
 #include "simulate/contact_constants.h"
 #include "simulate/part_pairs.h"
-#include "simulate/vertex_hash.h"
 #include "simulate/world.h"
 
 namespace tetsoup::simulate {
 namespace {
 
-constexpr std::int64_t kGrain = 128;  ///< Tets or vertices a task.
+constexpr std::size_t kGrain = 512;      ///< Vertices a task.
+constexpr std::int64_t kHitGrain = 128;  ///< Hits a task.
 /// How far outside a tet's inner faces a vertex may lie, in its heights: edges of bodies stand on edges.
 constexpr double kSlack = 0.02;
-/// Edge of the cells that vertices are hashed by, in mean edges.
-constexpr double kCell = 0.8;
 
 /// A vertex in a tet, or just outside one of its faces on the surface.
 struct Hit {
@@ -36,9 +34,7 @@ class Search {
     before_ = std::move(world_.contacts.between);
     world_.contacts = {};
     touch_obstacles();
-    std::vector<Hit> hits = find_hits();
-    keep_one_a_part(hits);
-    add_contacts(hits);
+    add_contacts(find_hits());
   }
 
  private:
@@ -73,108 +69,100 @@ class Search {
                            static_cast<float>(std::sqrt(obstacle.friction * rest(p).material.friction))};
   }
 
-  /// The surfaces' vertices that lie where another part may meet them.
-  VertexHash hash_vertices() {
-    std::vector<std::vector<HashedVertex>> found(world_.parts.size());
+  /// The boxes around the tets of the parts that may meet something.
+  void fit_boxes() {
     for_parts([&](std::size_t p) {
-      for (const std::uint32_t v : surface(p).vertices)
-        if (may_meet(p, place(part(p).begin + v))) found[p].push_back({place(part(p).begin + v), part(p).begin + v});
+      if (pairs_.partners[p].empty()) return;
+      kernel::BoxTree& tree = world_.parts[p].boxes;
+      const std::vector<std::uint32_t>& order = surface(p).tet_order;
+      if (tree.levels.empty()) tree = kernel::make_box_tree(order.size());
+      for (std::size_t i = 0; i < order.size(); ++i) {
+        Bounds box;
+        for (const std::uint32_t v : rest(p).piece.tets[order[i]]) box.add(place(part(p).begin + v));
+        kernel::set_box(tree, i, box.lo, box.hi);
+      }
+      kernel::fit_upper_levels(tree);
     });
-    std::vector<HashedVertex> vertices;
-    double edges = 0;
-    for (std::size_t p = 0; p < found.size(); ++p) {
-      vertices.insert(vertices.end(), found[p].begin(), found[p].end());
-      edges += surface(p).mean_edge;
-    }
-    return {vertices, kCell * edges / static_cast<double>(found.size())};
-  }
-  bool may_meet(std::size_t p, const Vec3& at) const {
-    return std::any_of(pairs_.partners[p].begin(), pairs_.partners[p].end(),
-                       [&](const Partner& q) { return pairs_.bounds[q.part].holds(at, q.ahead); });
   }
 
+  /// Some of a part's vertices, and the part whose tets they may be in.
+  struct Task {
+    std::uint32_t part = 0;
+    Partner other;
+    std::size_t begin = 0, end = 0;  ///< Of the other's vertices at its surface.
+  };
+  std::vector<Task> list_tasks() const {
+    std::vector<Task> tasks;
+    for (std::uint32_t p = 0; p < world_.parts.size(); ++p)
+      for (const Partner& q : pairs_.partners[p])
+        for (std::size_t begin = 0, count = surface(q.part).vertices.size(); begin < count; begin += kGrain)
+          tasks.push_back({p, q, begin, std::min(begin + kGrain, count)});
+    return tasks;
+  }
+
+  /// Part after part; of each, vertices ascending.
   std::vector<Hit> find_hits() {
-    if (world_.parts.empty()) return {};
-    const VertexHash hash = hash_vertices();
-    std::vector<std::size_t> first_task(world_.parts.size() + 1, 0);
-    for (std::size_t p = 0; p < world_.parts.size(); ++p) {
-      const auto tets = static_cast<std::int64_t>(pairs_.partners[p].empty() ? 0 : rest(p).piece.tets.size());
-      first_task[p + 1] = first_task[p] + static_cast<std::size_t>(chunk_count(tets, kGrain));
-    }
-    std::vector<std::vector<Hit>> found(first_task.back());
-    parallel_for(static_cast<std::int64_t>(found.size()), 1, watch_, [&](std::int64_t begin, std::int64_t) {
-      const auto task = static_cast<std::size_t>(begin);
-      const auto p = static_cast<std::size_t>(std::upper_bound(first_task.begin(), first_task.end(), task) -
-                                              first_task.begin() - 1);
-      const std::size_t first = (task - first_task[p]) * kGrain;
-      const std::size_t last = std::min(first + kGrain, rest(p).piece.tets.size());
-      for (std::size_t t = first; t < last; ++t) hit_tet(hash, p, t, found[task]);
+    fit_boxes();
+    const std::vector<Task> tasks = list_tasks();
+    std::vector<std::vector<Hit>> found(tasks.size());
+    parallel_for(static_cast<std::int64_t>(tasks.size()), 1, watch_, [&](std::int64_t i, std::int64_t) {
+      found[static_cast<std::size_t>(i)] = hits_of(tasks[static_cast<std::size_t>(i)]);
     });
     std::vector<Hit> hits;
     for (const auto& some : found) hits.insert(hits.end(), some.begin(), some.end());
     return hits;
   }
 
-  void hit_tet(const VertexHash& hash, std::size_t p, std::size_t t, std::vector<Hit>& hits) const {
-    const Tet& tet = rest(p).piece.tets[t];
-    Bounds box;
-    TetCorners corners;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3 at = place(part(p).begin + tet[i]);
-      box.add(at);
-      corners[i] = to_double(at);
+  /// Of the tets that a vertex is in or before, only the one it is deepest in.
+  std::vector<Hit> hits_of(const Task& task) const {
+    const Bounds& bounds = pairs_.bounds[task.part];
+    const Part& other = part(task.other.part);
+    std::vector<kernel::NumberedPoint> points;
+    for (std::size_t i = task.begin; i < task.end; ++i) {
+      const std::uint32_t slot = other.begin + surface(task.other.part).vertices[i];
+      if (!bounds.holds(place(slot), task.other.ahead)) continue;
+      points.push_back({place(slot), slot, to_float(rest(task.other.part).piece.places[slot - other.begin])});
     }
-    const std::optional<float> ahead = most_ahead(p, box);
-    if (!ahead || !(signed_volume(corners) > 0)) return;
-    const float margin = surface(p).open_faces[t] == 0 ? 0 : *ahead;
-    const Vec3 lo{box.lo.x - margin, box.lo.y - margin, box.lo.z - margin},
-        hi{box.hi.x + margin, box.hi.y + margin, box.hi.z + margin};
-    std::optional<std::array<Vec3d, 4>> gradients;
-    hash.visit_box(lo, hi, [&](const HashedVertex& v) {
-      if (!box.holds(v.place, margin) || is_of(p, v.slot, tet)) return;
-      const Partner* partner = pairs_.find(p, world_.owners[v.slot]);
-      if (partner == nullptr) return;
-      if (!gradients) gradients = barycentric_gradients(corners);
-      if (auto hit = hit_of(v, {static_cast<std::uint32_t>(p), partner->ahead}, t, corners[0], *gradients))
+    // Most tets that a vertex of the same body is in are its neighbours.
+    const RestSurface& skin = surface(task.part);
+    kernel::Neighbours neighbours;
+    if (other.body == part(task.part).body)
+      neighbours = {skin.middles, static_cast<float>(std::pow(kNeighbours * skin.mean_edge, 2))};
+    std::vector<kernel::PointInBox> found;
+    kernel::find_boxes_around(part(task.part).boxes, points, task.other.ahead, neighbours, found);
+    std::vector<Hit> hits;
+    for (const kernel::PointInBox& f : found) {
+      const auto hit = hit_of(f.point, task, skin.tet_order[f.box]);
+      if (!hit) continue;
+      if (hits.empty() || hits.back().vertex != hit->vertex)
         hits.push_back(*hit);
-    });
-  }
-  bool is_of(std::size_t p, std::uint32_t slot, const Tet& tet) const {
-    return std::any_of(tet.begin(), tet.end(), [&](std::uint32_t v) { return part(p).begin + v == slot; });
-  }
-  /// Of the partners that the box meets; nothing if there is none.
-  std::optional<float> most_ahead(std::size_t p, const Bounds& box) const {
-    std::optional<float> most;
-    for (const Partner& q : pairs_.partners[p])
-      if (box.meets(pairs_.bounds[q.part], q.ahead)) most = std::max(most.value_or(0), q.ahead);
-    return most;
+      else if (hit->depth > hits.back().depth || (hit->depth == hits.back().depth && hit->tet < hits.back().tet))
+        hits.back() = *hit;
+    }
+    return hits;
   }
 
-  std::optional<Hit> hit_of(const HashedVertex& v, const Partner& p, std::size_t t, const Vec3d& origin,
-                            const std::array<Vec3d, 4>& gradients) const {
-    const auto ahead = static_cast<double>(p.ahead);
-    const Vec3d from = to_double(v.place) - origin;
-    Hit hit{v.slot, p.part, static_cast<std::uint32_t>(t), 1, {}};
+  std::optional<Hit> hit_of(std::uint32_t vertex, const Task& task, std::uint32_t t) const {
+    const Part& owner = part(task.part);
+    const Tet& tet = rest(task.part).piece.tets[t];
+    TetCorners corners;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (owner.begin + tet[i] == vertex) return {};
+      corners[i] = to_double(place(owner.begin + tet[i]));
+    }
+    if (!(signed_volume(corners) > 0)) return {};
+    const std::array<Vec3d, 4> gradients = barycentric_gradients(corners);
+    const auto ahead = static_cast<double>(task.other.ahead);
+    const Vec3d from = to_double(place(vertex)) - corners[0];
+    Hit hit{vertex, task.part, t, 1, {}};
     for (std::size_t i = 0; i < 4; ++i) {
       const double b = dot(gradients[i], from) + (i == 0 ? 1 : 0);
-      const bool open = (surface(p.part).open_faces[t] >> i & 1U) != 0;
+      const bool open = (surface(task.part).open_faces[t] >> i & 1U) != 0;
       if (b < (open ? -ahead * length(gradients[i]) : -kSlack)) return {};
       hit.weights[i] = static_cast<float>(b);
       hit.depth = std::min(hit.depth, hit.weights[i]);
     }
     return hit;
-  }
-
-  /// Of the tets of a part that a vertex is in or before, the one it is deepest in.
-  static void keep_one_a_part(std::vector<Hit>& hits) {
-    std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
-      if (a.vertex != b.vertex) return a.vertex < b.vertex;
-      if (a.part != b.part) return a.part < b.part;
-      if (a.depth != b.depth) return a.depth > b.depth;
-      return a.tet < b.tet;
-    });
-    const auto same = [](const Hit& a, const Hit& b) { return a.vertex == b.vertex && a.part == b.part; };
-    hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());
   }
 
   void add_contacts(const std::vector<Hit>& hits) {
@@ -183,7 +171,7 @@ class Search {
       find_near_triangles(world_.surfaces[owner.surface], rest(hit.part).piece, hit.tet);
     }
     std::vector<std::optional<Contact>> contacts(hits.size());
-    parallel_for(static_cast<std::int64_t>(hits.size()), kGrain, watch_, [&](std::int64_t begin, std::int64_t end) {
+    parallel_for(static_cast<std::int64_t>(hits.size()), kHitGrain, watch_, [&](std::int64_t begin, std::int64_t end) {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
         contacts[i] = contact_of(hits[i]);
     });
@@ -193,11 +181,11 @@ class Search {
 
   /// The side through which the vertex was kept out of the part until now.
   std::optional<Vec3d> way_in(const Hit& hit) const {
-    const auto key = std::pair(hit.vertex, hit.part);
+    const auto key = std::pair(hit.part, hit.vertex);
     const auto at = std::lower_bound(before_.begin(), before_.end(), key, [](const Contact& c, const auto& wanted) {
-      return std::pair(c.vertex, c.part) < wanted;
+      return std::pair(c.part, c.vertex) < wanted;
     });
-    if (at == before_.end() || std::pair(at->vertex, at->part) != key) return {};
+    if (at == before_.end() || std::pair(at->part, at->vertex) != key) return {};
     return surface(hit.part).normals[at->triangle];
   }
 

@@ -67,13 +67,6 @@ bool may_touch_itself(const World& world, const Part& part) {
 
 }  // namespace
 
-const Partner* PartPairs::find(std::size_t part, std::uint32_t other) const {
-  const auto& some = partners[part];
-  const auto at =
-      std::lower_bound(some.begin(), some.end(), other, [](const Partner& a, std::uint32_t b) { return a.part < b; });
-  return at != some.end() && at->part == other ? &*at : nullptr;
-}
-
 PartPairs find_part_pairs(const World& world, double horizon, StageWatch& watch) {
   const std::size_t count = world.parts.size();
   PartPairs pairs{std::vector<Bounds>(count), std::vector<float>(count), std::vector<std::vector<Partner>>(count)};

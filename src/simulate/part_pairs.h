@@ -43,8 +43,6 @@ struct PartPairs {
   std::vector<Bounds> bounds;                  ///< Of the parts' surfaces.
   std::vector<float> ahead;                    ///< How far a vertex of a part may get.
   std::vector<std::vector<Partner>> partners;  ///< Of each part, ascending; itself where it may touch itself.
-
-  const Partner* find(std::size_t part, std::uint32_t other) const;
 };
 
 PartPairs find_part_pairs(const World& world, double horizon, StageWatch& watch);

@@ -11,7 +11,7 @@
 namespace tetsoup::simulate {
 
 /// Pieces with more tets are solved by all threads at once, smaller ones by one thread each.
-inline constexpr std::size_t kSharedTets = 20000;
+inline constexpr std::size_t kSharedTets = 4000;
 
 /// Tets that hang together by vertices.
 struct Piece {

@@ -3,13 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
+#include "base/morton.h"
+#include "base/parallel.h"
 #include "base/tet_faces.h"
+#include "base/vec.h"
 
 namespace tetsoup::simulate {
 namespace {
 
 using Weights = std::array<double, 3>;
+
+/// What rounding to float may change a length by.
+constexpr double kRounded = 1 + 1e-5;
 
 Weights nearest_on_edge(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   const Vec3d edge = b - a;
@@ -56,6 +64,56 @@ double distance_to(const RestSurface& surface, const Piece& piece, std::size_t t
   return length(at(corners, nearest_on_triangle(p, corners)) - p);
 }
 
+/// With their distances, ascending.
+std::vector<std::pair<double, std::uint32_t>> triangles_within(const RestSurface& surface, const Piece& piece,
+                                                               const Vec3d& p, double reach) {
+  std::vector<kernel::PointInBox> boxes;
+  const kernel::NumberedPoint point{to_float(p), 0, {}};
+  kernel::find_boxes_around(surface.boxes, std::span(&point, 1), static_cast<float>(reach * kRounded), {}, boxes);
+  std::vector<std::pair<double, std::uint32_t>> found;
+  for (const kernel::PointInBox& b : boxes) {
+    const double distance = distance_to(surface, piece, b.box, p);
+    if (distance <= reach) found.emplace_back(distance, b.box);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+Vec3d middle_of(const TetCorners& p) {
+  return (p[0] + p[1] + p[2] + p[3]) * 0.25;
+}
+
+void order_tets(RestSurface& surface, const Piece& piece) {
+  constexpr double kCells = 8000;  // that Morton codes tell apart
+  Vec3d lo = piece.places[0], hi = lo;
+  for (const Vec3d& p : piece.places) {
+    lo = min(lo, p);
+    hi = max(hi, p);
+  }
+  const double scale = kCells / std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+  const Progress nobody;
+  StageWatch watch(nobody, "simulate");
+  const auto middle = [&](std::size_t t) { return middle_of(corners_at(piece.places, piece.tets[t])); };
+  const auto entries = morton_order(
+      piece.tets.size(), [&](std::size_t t) { return to_float((middle(t) - lo) * scale); }, watch);
+  surface.middles.resize((entries.size() + kernel::kBoxGroup - 1) / kernel::kBoxGroup);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    surface.tet_order.push_back(entries[i].index);
+    const Vec3 at = to_float(middle(entries[i].index));
+    kernel::MiddleGroup& group = surface.middles[i / kernel::kBoxGroup];
+    for (std::size_t axis = 0; axis < 3; ++axis) group.at[axis][i % kernel::kBoxGroup] = (&at.x)[axis];
+  }
+}
+
+void fit_triangle_boxes(RestSurface& surface, const Piece& piece) {
+  surface.boxes = kernel::make_box_tree(surface.triangles.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto [a, b, c] = corners_of_triangle(surface, piece, t);
+    kernel::set_box(surface.boxes, t, to_float(min(a, min(b, c))), to_float(max(a, max(b, c))));
+  }
+  kernel::fit_upper_levels(surface.boxes);
+}
+
 }  // namespace
 
 RestSurface make_rest_surface(const Piece& piece) {
@@ -74,6 +132,7 @@ RestSurface make_rest_surface(const Piece& piece) {
     surface.balls.push_back({centre, std::sqrt(std::max({squared_length(a - centre), squared_length(b - centre),
                                                          squared_length(c - centre)}))});
   }
+  fit_triangle_boxes(surface, piece);
   surface.open_faces.assign(piece.tets.size(), 0);
   for (std::size_t begin = 0; begin < faces.size();) {
     const std::size_t end = face_run_end(faces, begin);
@@ -85,6 +144,7 @@ RestSurface make_rest_surface(const Piece& piece) {
   std::sort(surface.vertices.begin(), surface.vertices.end());
   surface.vertices.erase(std::unique(surface.vertices.begin(), surface.vertices.end()), surface.vertices.end());
   surface.near.resize(piece.tets.size());
+  order_tets(surface, piece);
   for (const Tet& tet : piece.tets)
     for (const auto& e : kTetEdges)
       surface.mean_edge +=
@@ -94,25 +154,28 @@ RestSurface make_rest_surface(const Piece& piece) {
 }
 
 void find_near_triangles(RestSurface& surface, const Piece& piece, std::uint32_t tet) {
-  if (!surface.near[tet].empty()) return;
+  if (!surface.near[tet].triangles.empty()) return;
   const TetCorners p = corners_at(piece.places, piece.tets[tet]);
-  const Vec3d middle = (p[0] + p[1] + p[2] + p[3]) * 0.25;
+  const Vec3d middle = middle_of(p);
   double radius = 0;
   for (const Vec3d& corner : p) radius = std::max(radius, 1.5 * length(corner - middle));
-  std::vector<double> distances(surface.triangles.size());
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < distances.size(); ++t) {
-    distances[t] = distance_to(surface, piece, t, middle);
-    least = std::min(least, distances[t]);
-  }
+  std::vector<std::pair<double, std::uint32_t>> found;
   // Distance is 1-Lipschitz: what is nearest somewhere in the ball is at most so much farther from its middle; what
-  // faces some way counts up to a mean edge from the ball.
+  // faces some way counts up to a mean edge from the ball. How far the nearest is, is not known at first.
+  for (double reach = radius + surface.mean_edge;; reach = std::max(2 * reach, least + 2 * radius)) {
+    found = triangles_within(surface, piece, middle, reach);
+    if (!found.empty()) least = found.front().first;
+    if (reach >= least + 2 * radius) break;
+  }
   const double farthest = std::max(least + 2 * radius, radius + surface.mean_edge);
-  std::vector<std::uint32_t>& near = surface.near[tet];
-  for (std::uint32_t t = 0; t < distances.size(); ++t)
-    if (distances[t] <= farthest) near.push_back(t);
-  std::stable_sort(near.begin(), near.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return distances[a] < distances[b]; });
+  NearTriangles& near = surface.near[tet];
+  near.middle = middle;
+  for (const auto& [distance, triangle] : found) {
+    if (distance > farthest) break;
+    near.triangles.push_back(triangle);
+    near.distances.push_back(distance);
+  }
 }
 
 SurfacePoint nearest_surface_point(const RestSurface& surface, const Piece& piece, std::uint32_t tet, const Vec3d& p,
@@ -121,7 +184,13 @@ SurfacePoint nearest_surface_point(const RestSurface& surface, const Piece& piec
   SurfacePoint nearest;
   double least = facing ? surface.mean_edge * surface.mean_edge : std::numeric_limits<double>::infinity();
   bool found = false;
-  for (const std::uint32_t t : surface.near[tet]) {
+  const NearTriangles& near = surface.near[tet];
+  const double from_middle = length(p - near.middle);
+  for (std::size_t i = 0; i < near.triangles.size(); ++i) {
+    // Distance is 1-Lipschitz: from here on all are farther.
+    const double at_least = near.distances[i] - from_middle;
+    if (at_least > 0 && at_least * at_least >= least) break;
+    const std::uint32_t t = near.triangles[i];
     if (facing && dot(surface.normals[t], *facing) < kSameSide) continue;
     const std::array<Vec3d, 3> corners = corners_of_triangle(surface, piece, t);
     const double to_plane = dot(p - corners[0], surface.normals[t]);

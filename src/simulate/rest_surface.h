@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "kernel/box_tree.h"
 #include "simulate/rest.h"
 
 namespace tetsoup::simulate {
@@ -15,14 +16,24 @@ struct Ball {
   double radius = 0;
 };
 
+/// The triangles that may be nearest to points of a tet.
+struct NearTriangles {
+  Vec3d middle;                          ///< Of the tet.
+  std::vector<std::uint32_t> triangles;  ///< Ascending by
+  std::vector<double> distances;         ///< their distance from the middle.
+};
+
 struct RestSurface {
-  std::vector<Triangle> triangles;               ///< Counter-clockwise from outside.
-  std::vector<Vec3d> normals;                    ///< Of unit length; zero without an area.
-  std::vector<Ball> balls;                       ///< Around the triangles.
-  std::vector<std::uint32_t> vertices;           ///< Of the triangles, ascending.
-  std::vector<std::uint8_t> open_faces;          ///< Bit i of a tet: its face opposite corner i is on the surface.
-  std::vector<std::vector<std::uint32_t>> near;  ///< Triangles that may be nearest to points of a tet, once asked for.
-  double mean_edge = 0;                          ///< Of the tets.
+  std::vector<Triangle> triangles;           ///< Counter-clockwise from outside.
+  std::vector<Vec3d> normals;                ///< Of unit length; zero without an area.
+  std::vector<Ball> balls;                   ///< Around the triangles.
+  std::vector<std::uint32_t> vertices;       ///< Of the triangles, ascending.
+  std::vector<std::uint8_t> open_faces;      ///< Bit i of a tet: its face opposite corner i is on the surface.
+  kernel::BoxTree boxes;                     ///< Around the triangles.
+  std::vector<NearTriangles> near;           ///< Of every tet, once asked for.
+  std::vector<std::uint32_t> tet_order;      ///< All tets, neighbours near each other.
+  std::vector<kernel::MiddleGroup> middles;  ///< Of the tets, in this order.
+  double mean_edge = 0;                      ///< Of the tets.
 };
 
 RestSurface make_rest_surface(const Piece& piece);

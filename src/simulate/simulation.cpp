@@ -110,8 +110,9 @@ void Simulation::step(double dt) {
   for (int i = 0; i < substeps; ++i) {
     if (i % interval == 0) find_contacts(world, h * std::min(interval, substeps - i));
     move_freely(world, h);
-    solve_links(world, h);
+    solve_springs(world, h);
     solve_contacts(world, h);
+    solve_attachments(world, h);
   }
   world.time += dt;
   world.report.substeps = substeps;

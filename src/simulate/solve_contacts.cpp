@@ -111,7 +111,7 @@ bool solve(const ObstacleContact& c, const Push& push, Movers& m) {
 
 }  // namespace
 
-void solve_links(World& world, double h) {
+void solve_springs(World& world, double h) {
   Movers m(world, h);
   for (const Spring& spring : world.springs) {
     const float w = m.inverse_mass(spring.slot);
@@ -119,6 +119,10 @@ void solve_links(World& world, double h) {
     const float share = w / (w + static_cast<float>(1 / (spring.stiffness * h * h)));
     m.move(spring.slot, (V{spring.target.x, spring.target.y, spring.target.z} - m.place(spring.slot)) * share);
   }
+}
+
+void solve_attachments(World& world, double h) {
+  Movers m(world, h);
   for (const Attachment& link : world.attachments) {
     const float a = m.inverse_mass(link.a), b = m.inverse_mass(link.b);
     if (!(a + b > 0)) continue;

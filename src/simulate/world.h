@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "kernel/box_tree.h"
 #include "kernel/places.h"
 #include "simulate/contacts.h"
 #include "simulate/obstacles.h"
@@ -26,6 +27,7 @@ struct Part {
   double last_h = 0;  ///< Of the substep before; 0: not moved yet.
   std::size_t clamped = 0;
   std::vector<kernel::TetRotations> rotations;
+  kernel::BoxTree boxes;  ///< Around its tets in the surface's order, when contacts were last searched for.
 };
 
 struct Body {
