@@ -37,10 +37,9 @@ def run(name, scene, substeps, budget=BUDGET):
 class Case:
     """One body of one size in all engines."""
 
-    def __init__(self, folder, body, tets, names):
+    def __init__(self, folder, body, tets):
         self.scene, self.column = scenes.drop(folder, body, tets), scenes.column(folder, tets)
-        self.title = f"{body}, {self.scene['tets']:,} tets"
-        self.names, self.seen = names, {}
+        self.title, self.seen = title_of(body, tets), {}
 
     def look(self, name, substeps):
         """The column first: where it fails, the body need not be tried."""
@@ -69,10 +68,11 @@ class Case:
                 return None  # too slow to be tried further
         return None
 
-    def measure(self):
+    def measure(self, names):
+        """Rows by engine."""
         print(f"  {self.title}", flush=True)
         picked = []
-        for name in self.names:
+        for name in names:
             if self.scene["tets"] > engines.ENGINES[name].most_tets:
                 continue
             usual = engines.ENGINES[name].usual
@@ -80,7 +80,10 @@ class Case:
             best = self.largest_right_step(name)
             picked += [(name, "its own", usual)] + ([(name, "largest right", best)] if best else [])
         repeat([(self.seen[name, substeps], name, self.scene) for name, _, substeps in picked])
-        return [row_of(self.title, name, kind, self.seen[name, substeps]) for name, kind, substeps in picked]
+        rows = {}
+        for name, kind, substeps in picked:
+            rows.setdefault(name, []).append(row_of(self.title, name, kind, self.seen[name, substeps]))
+        return rows
 
 
 def repeat(timed):
@@ -93,24 +96,35 @@ def repeat(timed):
                     row.update({key: again[key] for key in ("seconds", "factor", "ns")})
 
 
-def heap_rows(folder, rows, names):
+class Heap:
     """Bodies that fall on each other, with the steps that were right for one of them."""
-    count, body, tets = HEAP
-    scene = scenes.heap(folder, body, tets, count)
-    title, timed = f"heap of {count} {body}, {count * scene['tets']:,} tets", []
-    print(f"  {title}", flush=True)
-    for name in names:
-        if not engines.ENGINES[name].between:
-            continue
-        known = {row["substeps"] for row in rows if row["engine"] == name}
-        for substeps in sorted(known | {engines.ENGINES[name].usual}):
-            kind = "its own" if substeps == engines.ENGINES[name].usual else "largest right"
-            row = run(name, scene, substeps)
-            row["softness"], row["right"] = math.nan, row["stable"]
-            print(f"    {name:22} {substeps:4} {describe(row)}", flush=True)
-            timed.append((row, name, scene, kind))
-    repeat([line[:3] for line in timed])
-    return [row_of(title, name, kind, row) for row, name, _, kind in timed]
+
+    def __init__(self, folder, single):
+        count, body, tets = HEAP
+        self.title, self.single = f"heap of {count}: {title_of(body, tets)} each", single
+        self.scene = scenes.heap(folder, body, tets, count)
+
+    def measure(self, names):
+        print(f"  {self.title}", flush=True)
+        timed = []
+        for name in names:
+            if not engines.ENGINES[name].between:
+                continue
+            kinds = {row["substeps"]: row["kind"] for row in reversed(self.single.get(name, []))}
+            for substeps, kind in sorted(kinds.items(), reverse=True):
+                row = run(name, self.scene, substeps)
+                row["softness"], row["right"] = math.nan, row["stable"]
+                print(f"    {name:22} {substeps:4} {describe(row)}", flush=True)
+                timed.append((row, name, self.scene, kind))
+        repeat([line[:3] for line in timed])
+        rows = {}
+        for row, name, _, kind in timed:
+            rows.setdefault(name, []).append(row_of(self.title, name, kind, row))
+        return rows
+
+
+def title_of(body, tets):
+    return f"{body}, {tets:,} tets"
 
 
 def row_of(case, name, kind, row):

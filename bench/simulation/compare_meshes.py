@@ -3,7 +3,6 @@ import json
 import subprocess
 import sys
 
-import meshers
 import scenes
 
 PACKAGES = ["tetsoup", "pytetwild", "tetgen", "gmsh", "pymeshfix", "scipy"]
@@ -25,20 +24,18 @@ def child(script, *arguments):
     return {"why": "crashes" if done.returncode < 0 else last[:80]}
 
 
-def measure(name, folder, versions):
-    """A row for every mesher that is installed."""
+def measure(name, folder, makers):
+    """A row for every mesher, one after the other."""
     folder.mkdir(parents=True, exist_ok=True)
-    rows = []
     print(f"  {name}", flush=True)
-    for maker in meshers.MAKERS:
-        if any(need not in versions for need in meshers.NEEDS[maker.split(",")[0]]):
-            continue
+    rows = {}
+    for maker in makers:
         path = folder / f"{name}_{maker.replace(', ', '_')}.npz"
         row = {"object": name, "maker": maker, "meshing": child("meshers.py", maker, name, path)}
         if "why" not in row["meshing"]:
             row |= child("simulate_mesh.py", path)
         print(f"    {maker:22} {describe(row)}", flush=True)
-        rows.append(row)
+        rows[maker] = [row]
     return rows
 
 

@@ -39,19 +39,23 @@ def repaired(soup, triangles=None):
 
 
 MAKERS = {
-    "tetsoup": lambda soup: ours(soup),
-    "tetsoup, bcc": lambda soup: ours(soup, lattice="bcc"),
     "tetsoup, five": lambda soup: ours(soup, lattice="five"),
-    "tetsoup, bcc, raw": lambda soup: ours(soup, lattice="bcc", passes=0),
+    "tetsoup, bcc": lambda soup: ours(soup, lattice="bcc"),
     "tetsoup, five, raw": lambda soup: ours(soup, lattice="five", passes=0),
-    "fTetWild": lambda soup: peers.ftetwild(*soup),
+    "tetsoup, bcc, raw": lambda soup: ours(soup, lattice="bcc", passes=0),
     "fTetWild, coarse": lambda soup: peers.ftetwild(*soup, edge_length_fac=0.1, epsilon=0.005),
     "TetGen": lambda soup: peers.tetgen_mesh(*repaired(soup)),
     "TetGen, coarse": lambda soup: peers.tetgen_mesh(*repaired(soup, COARSE_TRIANGLES)),
     "Gmsh": lambda soup: peers.gmsh_mesh(*repaired(soup)),
     "Gmsh, coarse": lambda soup: peers.gmsh_mesh(*repaired(soup, COARSE_TRIANGLES)),
+    "fTetWild": lambda soup: peers.ftetwild(*soup),
 }
-NEEDS = {"tetsoup": ["tetsoup"], "fTetWild": ["pytetwild"], "TetGen": ["tetgen", "pymeshfix"], "Gmsh": ["gmsh", "pymeshfix"]}
+NEEDS = {"tetsoup": ["tetsoup"], "fTetWild": ["pytetwild"], "TetGen": ["tetgen", "pymeshfix"],
+         "Gmsh": ["gmsh", "pymeshfix"]}
+
+
+def needs_of(maker):
+    return NEEDS[maker.split(",")[0]]
 
 
 def upright(points, tets):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import json
 import math
 import signal
 import subprocess
@@ -66,6 +67,15 @@ def test_a_body_is_scaled_turned_and_shifted():
     assert np.allclose(simulation.positions(body), CORNER.points[:, [2, 0, 1]] + [1, 2, 3], atol=1e-6)
     assert simulation.volume(body) == pytest.approx(1 / 6)
     assert (simulation.body_count, simulation.report.tet_count, simulation.report.left_out) == (1, 1, 0)
+
+
+def test_angles_of_bodies_are_degrees():
+    one, many = tetsoup.Simulation(gravity=(0, 0, 0)), tetsoup.Simulation(gravity=(0, 0, 0))
+    one.add_body(CORNER, spin=(0, 0, 180))
+    many.add_bodies(CORNER, [(0, 0, 0)], spin=(0, 0, 180))
+    fast = np.pi * np.linalg.norm(CORNER.points[:, :2] - 0.25, axis=1)
+    for simulation in (one, many):
+        assert np.allclose(np.linalg.norm(simulation.velocities(0), axis=1), fast, rtol=1e-5)
 
 
 def test_views_show_every_step_and_cannot_be_written(torus):
@@ -251,6 +261,24 @@ print(simulation.state_hash)
 """
     done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=True)
     assert int(done.stdout) == wanted
+
+
+def test_the_tool_plays_the_same_scene_to_the_same_bits(torus, tmp_path):
+    torus.save(tmp_path / "torus.npz")
+    place = {"translate": [0, 0, 0.6], "rotate": [10, 20, 30], "velocity": [0.5, 0, 0], "spin": [0, 90, 0]}
+    body = {"source": {"tets_file": "torus.npz"}, "surface": False, "material": {"young": 2e5}, "place": place}
+    scene = {"seconds": 0.5, "bodies": [body], "obstacles": [{"plane": {}}]}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    command = [sys.executable, "-m", "tetsoup", "simulate", "scene.json", "--json", "-", "--quiet"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    simulation = tetsoup.Simulation()
+    simulation.add_plane()
+    simulation.add_body(torus, young=2e5, **place)
+    for _ in range(30):
+        simulation.step(FRAME)
+    assert simulation.report.touching > 0
+    assert int(json.loads(done.stdout)["state_hash"], 16) == simulation.state_hash
 
 
 def test_a_saved_state_goes_on_to_the_bit(fallen):

@@ -87,8 +87,8 @@ class Simulation:
         """
         pose = {key: value for key, value in options.items() if key in PoseOptions.__annotations__}
         material = {key: value for key, value in options.items() if key not in pose}
-        if "rotate" in pose:
-            pose["rotate"] = _radians(pose["rotate"])
+        for angles in {"rotate", "spin"} & pose.keys():
+            pose[angles] = _radians(pose[angles], angles)
         with self._alone() as core:
             return core.add_bodies(_handle(mesh), material, [pose])
 
@@ -111,7 +111,7 @@ class Simulation:
             translate: (N, 3), m.
             rotate: (N, 3), or one (3,) for all, degrees about x, then y, then z.
             scale: (N,), or one for all.
-            velocity, spin: (N, 3), or one (3,) for all, m/s and rad/s.
+            velocity, spin: (N, 3), or one (3,) for all, m/s and degrees a second.
 
         Returns:
             Their numbers.
@@ -129,7 +129,7 @@ class Simulation:
             "rotate": np.radians(_rows(rotate, "rotate", (count, 3))),
             "scale": _rows(scale, "scale", (count,)),
             "velocity": _rows(velocity, "velocity", (count, 3)),
-            "spin": _rows(spin, "spin", (count, 3)),
+            "spin": np.radians(_rows(spin, "spin", (count, 3))),
         }
         poses = [{name: values[i].tolist() for name, values in rows.items()} for i in range(count)]
         with self._alone() as core:
@@ -414,8 +414,8 @@ def _vertices(core: _core.Simulation, body: Any, vertices: npt.ArrayLike) -> tup
     return number, indices
 
 
-def _radians(degrees: Any) -> tuple[float, float, float]:
-    x, y, z = as_triple(degrees, "rotate")
+def _radians(degrees: Any, name: str) -> tuple[float, float, float]:
+    x, y, z = as_triple(degrees, name)
     return math.radians(x), math.radians(y), math.radians(z)
 
 

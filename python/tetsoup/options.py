@@ -2,7 +2,7 @@
 
 Each is one line: keyword, type, meaning. Defaults are the library's own (`tetsoup.default_options()`); leaving a
 keyword out takes them. Lengths are in the soup's own unit unless a name ends in ``_voxels`` or ``_cells``; angles are
-radians, but for how a body is turned in a simulation.
+radians, but degrees for how a body of a simulation is turned and spins.
 """
 
 from __future__ import annotations
@@ -128,10 +128,10 @@ class PoseOptions(TypedDict, total=False):
     """Where a body is placed and how it moves there: scaled, turned about x, then y, then z, and shifted."""
 
     translate: Annotated[Triple, "(x, y, z), m"]
-    rotate: Annotated[Triple, "about x, then y, then z, **degrees**, as in the tool"]
+    rotate: Annotated[Triple, "about x, then y, then z, degrees, as in the tool's scenes"]
     scale: Annotated[float, "> 0"]
     velocity: Annotated[Triple, "(x, y, z), m/s"]
-    spin: Annotated[Triple, "(x, y, z), rad/s, about the centre of mass"]
+    spin: Annotated[Triple, "(x, y, z), degrees a second, about the centre of mass"]
 
 
 class BodyOptions(MaterialOptions, PoseOptions, total=False):
