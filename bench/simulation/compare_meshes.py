@@ -1,5 +1,7 @@
 """Meshes of the same objects by several meshers, each simulated by tetsoup.Simulation."""
 import json
+import resource
+import signal
 import subprocess
 import sys
 
@@ -7,16 +9,19 @@ import scenes
 
 PACKAGES = ["tetsoup", "pytetwild", "tetgen", "gmsh", "pymeshfix", "scipy"]
 QUICK_OBJECTS = ["robot"]
-TIMEOUT = 900  # s
+BUDGET = 240  # s of processor time, after which a mesher is given up
+
+
+def limit_time():
+    resource.setrlimit(resource.RLIMIT_CPU, (BUDGET, BUDGET))
 
 
 def child(script, *arguments):
     """Its line of JSON, or why there is none."""
     command = [sys.executable, str(scenes.ROOT / "bench/simulation" / script), *map(str, arguments)]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT, check=False)
-    except subprocess.TimeoutExpired:
-        return {"why": f"> {TIMEOUT} s"}
+    done = subprocess.run(command, capture_output=True, text=True, check=False, preexec_fn=limit_time)
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        return {"why": f"> {BUDGET} s"}
     lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
     if done.returncode == 0 and lines:
         return json.loads(lines[-1])

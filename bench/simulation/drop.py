@@ -7,6 +7,7 @@ early when the clock shows more than BUDGET seconds; "simulated" says how far it
 """
 import json
 import pathlib
+import resource
 import sys
 import time
 
@@ -17,6 +18,7 @@ from judge import Judge
 def main(name, scene_path, substeps, seconds, budget):
     scene = json.loads(pathlib.Path(scene_path).read_text())
     engine, substeps, budget = engines.ENGINES[name], int(substeps), float(budget)
+    resource.setrlimit(resource.RLIMIT_CPU, (int(4 * budget + 60),) * 2)  # an engine may never return
     engine(scene, substeps).frame()
     run = engine(scene, substeps)
     judge, wall, processor, frames = Judge(scene, run.positions()), 0.0, 0.0, 0

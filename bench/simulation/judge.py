@@ -64,6 +64,8 @@ class Judge:
         low = float(min(p[:, 2].min() for p in self.before) / self.size)
         limits = [("energy grows", self.most_energy < MOST_ENERGY), ("volume lost", self.most_swelling < MOST_SWELLING),
                   ("not at rest", self.speed < MOST_SPEED), ("in the ground", low > -MOST_SUNK)]
+        if len(self.before) > 1:
+            limits.pop(2)  # a heap is not at rest so soon
         why = ", ".join(name for name, kept in limits if not kept)
         return {"stable": not why, "why": why, "energy": self.most_energy, "swelling": self.most_swelling,
                 "speed": self.speed, "low": low, "softness": self.softness()}

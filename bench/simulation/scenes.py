@@ -1,5 +1,6 @@
 """The bodies and the scenes, as files that every engine reads."""
 import json
+import os
 import pathlib
 
 import numpy
@@ -42,7 +43,8 @@ def write_scene(folder, name, mesh, places):
     folder.mkdir(parents=True, exist_ok=True)
     mesh = tetsoup.TetMesh(standing(mesh.points), mesh.tets)
     paths = {kind: str(folder / f"{name}.{kind}") for kind in ("npz", "msh", "vtk")}
-    numpy.savez(paths["npz"], points=mesh.points, tets=mesh.tets)
+    numpy.savez(folder / f"{name}.part.npz", points=mesh.points, tets=mesh.tets)
+    os.replace(folder / f"{name}.part.npz", paths["npz"])  # another run may be reading
     mesh.save(paths["msh"], engine="mujoco")
     mesh.save(paths["vtk"], engine="bullet")
     a, b = (mesh.points[mesh.tets[:, list(corner)]] for corner in ((0, 0, 0, 1, 1, 2), (1, 2, 3, 2, 3, 3)))
@@ -52,7 +54,8 @@ def write_scene(folder, name, mesh, places):
         "edge": float(numpy.linalg.norm(a - b, axis=2).mean()),
     }
     scene["path"] = str(folder / f"{name}.json")
-    pathlib.Path(scene["path"]).write_text(json.dumps(scene))
+    (folder / f"{name}.part.json").write_text(json.dumps(scene))
+    os.replace(folder / f"{name}.part.json", scene["path"])
     return scene
 
 
