@@ -9,7 +9,7 @@ import scenes
 
 PACKAGES = ["tetsoup", "pytetwild", "tetgen", "gmsh", "pymeshfix", "scipy"]
 QUICK_OBJECTS = ["robot"]
-BUDGET = 240  # s of processor time, after which a mesher is given up
+BUDGET = 120  # s of processor time, after which a mesher is given up
 
 
 def limit_time():
@@ -32,14 +32,13 @@ def child(script, *arguments):
 def measure(name, folder, makers):
     """A row for every mesher, one after the other."""
     folder.mkdir(parents=True, exist_ok=True)
-    print(f"  {name}", flush=True)
     rows = {}
     for maker in makers:
         path = folder / f"{name}_{maker.replace(', ', '_')}.npz"
         row = {"object": name, "maker": maker, "meshing": child("meshers.py", maker, name, path)}
         if "why" not in row["meshing"]:
             row |= child("simulate_mesh.py", path)
-        print(f"    {maker:22} {describe(row)}", flush=True)
+        print(f"  {name:10} {maker:22} {describe(row)}", flush=True)
         rows[maker] = [row]
     return rows
 

@@ -1,7 +1,8 @@
 """Meshes of one object by each mesher, in a process of its own: meshers.py MAKER OBJECT OUT.npz. One line of JSON.
 
-TetGen and Gmsh want a closed surface without crossings, which none of the objects is: they get what pymeshfix makes of it,
-and in their coarse rows that with a tenth of a mesh's triangles. fTetWild takes the object as it is, as tetsoup does.
+TetGen and Gmsh want a closed surface without crossings, which none of the objects is: they get what pymeshfix makes of it.
+fTetWild takes the object as it is, as tetsoup does. Coarse rows are meant to have as many tets as ours, so they begin with
+fewer triangles.
 """
 import json
 import pathlib
@@ -16,7 +17,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "peers"))
 import meshers as peers  # noqa: E402
 
 TETS = 5000  # of ours, and about that many of the coarse ones
-COARSE_TRIANGLES = 1600
+COARSE_TRIANGLES = 1600  # for TetGen and Gmsh, whose surface stays as it is
+FTETWILD_TRIANGLES = 4000  # with all of the bunny's, the wheel's fTetWild does not end within minutes
 
 
 def ours(soup, **options):
@@ -26,15 +28,22 @@ def ours(soup, **options):
     return mesh.points, mesh.tets
 
 
-def repaired(soup, triangles=None):
-    import pymeshfix
+def decimated(soup, triangles):
     import pyvista
 
-    points, faces = pymeshfix.clean_from_arrays(soup[0].astype(float), soup[1].astype(numpy.int32), joincomp=True)
-    if triangles and len(faces) > triangles:
+    points, faces = soup
+    if len(faces) > triangles:
         surface = pyvista.PolyData.from_regular_faces(points, faces).decimate(1 - triangles / len(faces))
-        points, faces = pymeshfix.clean_from_arrays(
-            numpy.array(surface.points, float), numpy.array(surface.regular_faces, numpy.int32), joincomp=True)
+        points, faces = surface.points, surface.regular_faces
+    return numpy.array(points, float), numpy.array(faces, numpy.int32)
+
+
+def repaired(soup, triangles=None):
+    import pymeshfix
+
+    points, faces = pymeshfix.clean_from_arrays(soup[0].astype(float), soup[1].astype(numpy.int32), joincomp=True)
+    if triangles:
+        points, faces = pymeshfix.clean_from_arrays(*decimated((points, faces), triangles), joincomp=True)
     return points, faces.astype(numpy.int32)
 
 
@@ -43,7 +52,8 @@ MAKERS = {
     "tetsoup, bcc": lambda soup: ours(soup, lattice="bcc"),
     "tetsoup, five, raw": lambda soup: ours(soup, lattice="five", passes=0),
     "tetsoup, bcc, raw": lambda soup: ours(soup, lattice="bcc", passes=0),
-    "fTetWild, coarse": lambda soup: peers.ftetwild(*soup, edge_length_fac=0.1, epsilon=0.005),
+    "fTetWild, coarse": lambda soup: peers.ftetwild(
+        *decimated(soup, FTETWILD_TRIANGLES), edge_length_fac=0.1, epsilon=0.005),
     "TetGen": lambda soup: peers.tetgen_mesh(*repaired(soup)),
     "TetGen, coarse": lambda soup: peers.tetgen_mesh(*repaired(soup, COARSE_TRIANGLES)),
     "Gmsh": lambda soup: peers.gmsh_mesh(*repaired(soup)),
