@@ -60,7 +60,7 @@ class RandomFields {
 
  private:
   template <class Number>
-    requires std::is_arithmetic_v<Number>
+  requires std::is_arithmetic_v<Number>
   void set(Number& member, const scene::Range& range) {
     member = static_cast<Number>(std::is_integral_v<Number> ? std::round(number(range)) : number(range));
     if (!range.holds(static_cast<double>(member))) member = static_cast<Number>(range.low);
@@ -79,10 +79,8 @@ class RandomFields {
     set(*member, rule);
   }
   template <class Member>
-    requires scene::HasFields<Member>
-  void set(Member& member, const scene::Object&) {
-    scene::visit_fields(*this, member);
-  }
+  requires scene::HasFields<Member>
+  void set(Member& member, const scene::Object&) { scene::visit_fields(*this, member); }
   template <class Member>
   void set(std::vector<Member>&, const scene::Objects&) {}
 
@@ -104,7 +102,8 @@ inline Scene random_scene(std::uint64_t seed) {
     scene::visit_fields(fields, body);
     body.source = {};
     // Bodies of one scene are of like size, so that they meet.
-    const double size = scene.bodies.empty() ? std::pow(10.0, fields.number({-3, 3, ""})) : scene.bodies[0].source.box->x;
+    const double size =
+        scene.bodies.empty() ? std::pow(10.0, fields.number({-4, 5, ""})) : scene.bodies[0].source.box->x;
     body.source.box = Vec3d{size, size * (0.2 + 0.1 * static_cast<double>(fields.below(9))), size};
     body.source.origin = SceneOrigin::Centre;
     body.mesh = {};

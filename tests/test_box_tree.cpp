@@ -38,7 +38,7 @@ std::vector<PointInBox> asked_one_by_one(const Scattered& s, float margin, const
   std::vector<PointInBox> found;
   for (const NumberedPoint& p : s.points) {
     for (std::uint32_t i = 0; i < s.lo.size(); ++i) {
-      const auto within = [&](float at, float lo, float hi) { return at >= lo - margin && at <= hi + margin; };
+      const auto within = [&](float at, float lo, float hi) { return at + margin >= lo && at - margin <= hi; };
       if (!within(p.place.x, s.lo[i].x, s.hi[i].x) || !within(p.place.y, s.lo[i].y, s.hi[i].y) ||
           !within(p.place.z, s.lo[i].z, s.hi[i].z))
         continue;

@@ -64,9 +64,9 @@ TEST(SceneRandom, a_scene_is_read_back_from_its_text) {
 
 /// A byte or a run of bytes is dropped, doubled, exchanged for others of the text or of what JSON is made of.
 std::string mutated(std::string text, std::mt19937_64& random) {
-  static constexpr std::array<std::string_view, 20> kPieces{
-      "{", "}", "[", "]", ",", ":", "\"", "-", "1e999", "0", "null", "true", "NaN", "\\u0000", "\xff", "1e5", "-1", "\"x\"",
-      "[[[[", "0.5"};
+  static constexpr std::array<std::string_view, 20> kPieces{"{",    "}",     "[",  "]",     ",",    ":",   "\"",
+                                                            "-",    "1e999", "0",  "null",  "true", "NaN", "\\u0000",
+                                                            "\xff", "1e5",   "-1", "\"x\"", "[[[[", "0.5"};
   const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
   for (std::size_t changes = 1 + below(3); changes > 0 && !text.empty(); --changes) {
     const std::size_t at = below(text.size()), size = 1 + below(std::min<std::size_t>(8, text.size() - at));

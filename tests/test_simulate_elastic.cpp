@@ -62,6 +62,37 @@ TEST(SimulateElastic, ACantileverBendsAsBeamTheorySaysTheFinerTheCloser) {
   EXPECT_NEAR(fine, 1, 0.12);
 }
 
+TEST(SimulateElastic, ByDefaultASmallOrStiffOrMuchDampedBeamIsNoSofterThanItsMaterial) {
+  for (const double size : {0.05, 1.0}) {
+    for (const double damping_time : {0.002, 0.2}) {
+      Beam beam;
+      beam.length = 0.6 * size;
+      beam.height = 0.1 * size;
+      beam.material.young = 1e8 * size;  // bends by the same share at any size
+      SimMaterial material;
+      material.elastic = beam.material;
+      material.damping_time = damping_time;
+      SimulationOptions options;
+      options.contacts = Contacts::None;
+      options.gravity = {0, 0, -200};
+      Simulation simulation(options);
+      const TetMesh mesh = block_mesh({12, 2, 2}, beam.height / 2);
+      const std::size_t body = simulation.add_body(mesh, material);
+      for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+        if (mesh.vertices[v].x < 1e-6F) simulation.pin({body, v});
+      double sum = 0;
+      for (int frame = 0; frame < 240; ++frame) {
+        simulation.step(kFrame);
+        sum += frame < 120 ? 0 : static_cast<double>(mesh.vertices.back().z - simulation.positions(body).back().z);
+      }
+      const double over_theory = sum / 120 / (beam.deflection() * 200 / kGravity);
+      EXPECT_GT(over_theory, 0.5) << size << " m, damping " << damping_time;  // two linear tets across are too stiff
+      EXPECT_LT(over_theory, 1.4) << size << " m, damping " << damping_time;
+      EXPECT_GT(simulation.report().substeps, 30);
+    }
+  }
+}
+
 TEST(SimulateElastic, ABentBodyOfPoissonRatio49KeepsItsVolumeWithinOnePercent) {
   Beam beam;
   beam.material.young = 2e5;

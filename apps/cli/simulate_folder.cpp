@@ -31,7 +31,7 @@ void write_text(const fs::path& path, std::string_view text) {
 /// The folder may be read from anywhere.
 Scene with_absolute_files(Scene scene) {
   std::error_code ignored;
-  const fs::path folder = fs::weakly_canonical(fs::absolute(scene.folder), ignored);
+  const fs::path folder = fs::weakly_canonical(scene.folder.empty() ? fs::path(".") : scene.folder, ignored);
   const auto extend = [&](std::string& file) {
     if (!file.empty()) file = (folder / file).string();
   };

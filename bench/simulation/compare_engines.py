@@ -26,12 +26,13 @@ def run(name, scene, substeps, budget=BUDGET):
                str(SECONDS), str(budget)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-        return {"stable": False, "why": "does not return", "substeps": substeps}
+        return {"stable": False, "why": "does not return", "asked": substeps, "substeps": substeps}
     lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
     if done.returncode != 0 or not lines:
         last = (done.stderr.strip().splitlines() or ["no output"])[-1][:80]
-        return {"stable": False, "why": "crashes" if done.returncode < 0 else last, "substeps": substeps}
-    return json.loads(lines[-1]) | {"substeps": substeps}
+        return {"stable": False, "why": "crashes" if done.returncode < 0 else last, "asked": substeps,
+                "substeps": substeps}
+    return {"asked": substeps} | json.loads(lines[-1])
 
 
 class Case:
@@ -89,7 +90,7 @@ def repeat(timed):
     for _ in range(REPEATS - 1):
         for row, name, scene in timed:
             if row["stable"] and row["seconds"] < BUDGET / 3:
-                again = run(name, scene, row["substeps"])
+                again = run(name, scene, row["asked"])
                 if again["stable"] and again["factor"] > row["factor"]:
                     row.update({key: again[key] for key in ("seconds", "factor", "ns")})
 
@@ -108,7 +109,7 @@ class Heap:
         for name in names:
             if not engines.ENGINES[name].between:
                 continue
-            kinds = {row["substeps"]: row["kind"] for row in reversed(self.single.get(name, []))}
+            kinds = {row["asked"]: row["kind"] for row in reversed(self.single.get(name, []))}
             for substeps, kind in sorted(kinds.items(), reverse=True):
                 row = run(name, self.scene, substeps)
                 row["softness"], row["right"] = math.nan, row["stable"]

@@ -32,7 +32,7 @@ def main(name, scene_path, substeps, seconds, budget):
     tets, taken = len(judge.tets) * len(scene["places"]), min(wall, processor)
     print(json.dumps(judge.numbers() | {
         "seconds": taken, "simulated": frames * engines.FRAME, "factor": frames * engines.FRAME / taken, "tets": tets,
-        "ns": taken / (substeps * frames) / tets * 1e9}))
+        "substeps": run.substeps, "ns": taken / (run.substeps * frames) / tets * 1e9}))
 
 
 if __name__ == "__main__":

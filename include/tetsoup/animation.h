@@ -64,7 +64,7 @@ struct AnimationOptions {
   UpAxis up = UpAxis::Z;          ///< Of the scene.
   /// What pictures show; without it the first frame, the way down from there to the ground, and obstacles. One that is
   /// continued should be given the view() of its first part.
-  std::optional<Box3> view;
+  std::optional<Box3> view{};
   std::size_t first_frame = 0;  ///< Number of the first frame; above 0 a series is continued.
 };
 

@@ -114,9 +114,9 @@ struct SceneObstacle {
 struct Scene {
   std::string title;
   std::filesystem::path folder;  ///< Where names of files begin; not written.
-  SimulationOptions simulation;
-  double seconds = 4;  ///< Of time in the scene.
-  double fps = 60;     ///< Frames a second; a frame is a step of the simulation.
+  SimulationOptions simulation;  ///< Substeps are those of a step of at most 1/60 s.
+  double seconds = 4;            ///< Of time in the scene.
+  double fps = 60;               ///< Frames a second.
   std::vector<SceneBody> bodies;
   std::vector<SceneObstacle> obstacles;
 };
@@ -190,7 +190,8 @@ struct LoadedScene {
 ///                       Cancelled.
 LoadedScene load_scene(const Scene& scene, const Progress& progress = {});
 
-/// Steps of the simulation that make a frame: 1, or where pins are moved by hand one for each search for contacts.
+/// Steps of the simulation that make a frame, so that none is longer than 1/60 s: few frames a second change nothing of
+/// the motion. Where pins are moved by hand, each search for contacts has a step of its own.
 int steps_of_frame(const LoadedScene& loaded);
 
 /// Simulates one frame, 1 / fps seconds.

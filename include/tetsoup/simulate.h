@@ -19,7 +19,8 @@ namespace tetsoup {
 struct SimMaterial {
   Material elastic{};
   /// s, >= 0: stress grows by this much of what the rate of strain would add in a second [Kelvin and Voigt]. Motion of
-  /// angular frequency w dies with w^2 / 2 of it; that of a rigid body never does.
+  /// angular frequency w dies with w^2 / 2 of it; that of a rigid body never does. The implicit solver takes less of it
+  /// where a substep is long for the stiffness.
   double damping_time = 0.002;
   double friction = 0.5;  ///< Coulomb's coefficient, >= 0; between two, the geometric mean counts.
 };
@@ -58,8 +59,12 @@ struct PotentialOptions {
 struct SimulationOptions {
   Solver solver = Solver::Implicit;
   Vec3d gravity{0, 0, -9.81};  ///< m/s^2.
-  int substeps = 10;           ///< Of a step, 1..10000. Potentials take more where their stability asks for it.
-  int contact_interval = 5;    ///< Substeps from one search for contacts to the next, >= 1.
+  int substeps = 10;           ///< Of a step, at least; 1..10000. Potentials take more where stability asks for it,
+  /// and the implicit solver up to so many where sound would pass an edge of the mesh within a substep, since bodies
+  /// would then be softer than their material; 1..10000. What is below `substeps` counts for nothing.
+  int max_substeps = 200;
+  int contact_interval = 5;  ///< Substeps from one search for contacts to the next, >= 1; in proportion where a step
+                             ///< takes more than `substeps`.
   Contacts contacts = Contacts::All;
   PotentialOptions potentials;
 };

@@ -79,6 +79,7 @@ const std::vector<Keyword<SimulationOptions>>& simulation_keywords() {
       keyword<S, &S::solver>("solver"),
       keyword<S, &S::gravity>("gravity"),
       keyword<S, &S::substeps>("substeps"),
+      keyword<S, &S::max_substeps>("max_substeps"),
       keyword<S, &S::contact_interval>("contact_interval"),
       keyword<S, &S::contacts>("contacts"),
       keyword<S, &S::potentials, &PotentialOptions::distance>("distance_stiffness"),

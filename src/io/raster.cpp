@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace tetsoup {
 
 namespace {
@@ -23,6 +25,22 @@ double distance_to_segment(const Point& p, const Point& a, const Point& b) {
 std::array<int, 2> clipped(double low, double high, int count) {
   return {static_cast<int>(std::floor(std::clamp(low, 0.0, static_cast<double>(count)))),
           static_cast<int>(std::ceil(std::clamp(high, -1.0, count - 1.0)))};
+}
+
+/// First and last sample, which lie at 0.5, 1.5, ..., between two places and in [begin, end).
+std::array<int, 2> samples_within(double low, double high, int begin, int end) {
+  return {static_cast<int>(std::ceil(std::clamp(low - 0.5, begin + 0.0, end + 0.0))),
+          static_cast<int>(std::floor(std::clamp(high - 0.5, begin - 1.0, end - 1.0)))};
+}
+
+template <class Body>
+void for_each_row(int count, const Body& body) {
+  constexpr std::int64_t kGrain = 32;
+  const Progress nobody;
+  StageWatch watch(nobody, "draw");
+  parallel_for(count, kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto row = begin; row < end; ++row) body(static_cast<int>(row));
+  });
 }
 
 double doubled_area(const std::array<ScreenPoint, 3>& p) {
@@ -122,13 +140,36 @@ TriangleTarget::TriangleTarget(int width, int height)
       nearness_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
       colour_(nearness_.size()) {}
 
+std::array<int, 2> TriangleTarget::columns_of(const std::array<ScreenPoint, 3>& p) const {
+  return samples_within(std::min({p[0].x, p[1].x, p[2].x}), std::max({p[0].x, p[1].x, p[2].x}), 0, columns_);
+}
+
+std::array<int, 2> TriangleTarget::rows_of(const std::array<ScreenPoint, 3>& p, const Rows& rows) const {
+  return samples_within(std::min({p[0].y, p[1].y, p[2].y}), std::max({p[0].y, p[1].y, p[2].y}), std::max(rows.begin, 0),
+                        std::min(rows.end, rows_));
+}
+
+bool TriangleTarget::misses(const std::array<ScreenPoint, 3>& p, const Rows& rows) const {
+  const auto ys = rows_of(p, rows);
+  if (ys[0] > ys[1]) return true;
+  const auto xs = columns_of(p);
+  return xs[0] > xs[1];
+}
+
+void TriangleTarget::cover(const std::array<ScreenPoint, 3>& corners, const Rows& rows) {
+  if (misses(corners, rows)) return;
+  std::array<ScreenPoint, 3> p = corners;
+  if (doubled_area(p) < 0) std::swap(p[1], p[2]);
+  paint(p, rows, [](const std::array<double, 3>&) { return Rgb{}; });
+}
+
 // Side i lies opposite corner i: its value, which colour_at() takes, is twice the area between it and the place.
 template <class ColourAt>
-void TriangleTarget::paint(const std::array<ScreenPoint, 3>& p, const ColourAt& colour_at) {
+void TriangleTarget::paint(const std::array<ScreenPoint, 3>& p, const Rows& rows, const ColourAt& colour_at) {
+  const auto xs = columns_of(p), ys = rows_of(p, rows);
+  if (ys[0] > ys[1] || xs[0] > xs[1]) return;
   const double area = doubled_area(p);
   if (!(area > 0)) return;
-  const auto xs = clipped(std::min({p[0].x, p[1].x, p[2].x}), std::max({p[0].x, p[1].x, p[2].x}), columns_);
-  const auto ys = clipped(std::min({p[0].y, p[1].y, p[2].y}), std::max({p[0].y, p[1].y, p[2].y}), rows_);
   std::array<double, 3> step{};
   for (std::size_t i = 0; i < 3; ++i) step[i] = -(p[(i + 2) % 3].y - p[(i + 1) % 3].y);
   for (int y = ys[0]; y <= ys[1]; ++y) {
@@ -153,7 +194,8 @@ void TriangleTarget::paint(const std::array<ScreenPoint, 3>& p, const ColourAt& 
   }
 }
 
-void TriangleTarget::draw(const std::array<ScreenPoint, 3>& corners, const Rgb& fill, const EdgeStyle& edge) {
+void TriangleTarget::draw(const std::array<ScreenPoint, 3>& corners, const Rgb& fill, const EdgeStyle& edge,
+                          const Rows& rows) {
   std::array<ScreenPoint, 3> p = corners;
   if (doubled_area(p) < 0) std::swap(p[1], p[2]);
   std::array<double, 3> inverse_length{};
@@ -162,14 +204,15 @@ void TriangleTarget::draw(const std::array<ScreenPoint, 3>& corners, const Rgb& 
     inverse_length[i] = 1 / std::max(1e-9, std::hypot(b.x - a.x, b.y - a.y));
   }
   const double reach = edge.width * kSupersampling / 2 + 0.5;
-  paint(p, [&](const std::array<double, 3>& side) {
+  paint(p, rows, [&](const std::array<double, 3>& side) {
     // A side's value is the distance from it, times its length.
     const double d = std::min({side[0] * inverse_length[0], side[1] * inverse_length[1], side[2] * inverse_length[2]});
     return mix(fill, edge.colour, edge.alpha * static_cast<float>(std::clamp(reach - d, 0.0, 1.0)));
   });
 }
 
-void TriangleTarget::draw_smooth(const std::array<ScreenPoint, 3>& corners, const std::array<Rgb, 3>& colours) {
+void TriangleTarget::draw_smooth(const std::array<ScreenPoint, 3>& corners, const std::array<Rgb, 3>& colours,
+                                 const Rows& rows) {
   std::array<ScreenPoint, 3> p = corners;
   std::array<Rgb, 3> c = colours;
   if (doubled_area(p) < 0) {
@@ -177,7 +220,7 @@ void TriangleTarget::draw_smooth(const std::array<ScreenPoint, 3>& corners, cons
     std::swap(c[1], c[2]);
   }
   const double to_share = 1 / doubled_area(p);
-  paint(p, [&](const std::array<double, 3>& side) {
+  paint(p, rows, [&](const std::array<double, 3>& side) {
     const auto s0 = static_cast<float>(side[0] * to_share), s1 = static_cast<float>(side[1] * to_share);
     const float s2 = 1 - s0 - s1;
     return Rgb{c[0].r * s0 + c[1].r * s1 + c[2].r * s2, c[0].g * s0 + c[1].g * s1 + c[2].g * s2,
@@ -216,7 +259,7 @@ std::vector<float> TriangleTarget::ambient() const {
   constexpr float kReach = 0.06F;    // Relative depth beyond which a neighbour has nothing to do with this place.
   constexpr float kStrength = 1.5F;  // Chosen by eye.
   std::vector<float> light(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 1.0F);
-  for (int y = 0; y < height_; ++y) {
+  for_each_row(height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
       const float middle = nearness_at(x, y);
       if (middle <= 0) continue;
@@ -230,14 +273,14 @@ std::vector<float> TriangleTarget::ambient() const {
       light[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
           1 / (1 + kStrength * hollow);
     }
-  }
+  });
   return light;
 }
 
 void TriangleTarget::resolve(Image& image, int x0, int y0) const {
   const std::vector<float> light = ambient();
   constexpr int kSamples = kSupersampling * kSupersampling;
-  for (int y = 0; y < height_; ++y) {
+  for_each_row(height_, [&](int y) {
     for (int x = 0; x < width_; ++x) {
       std::array<int, 4> sum{};
       for (int sy = 0; sy < kSupersampling; ++sy) {
@@ -255,7 +298,7 @@ void TriangleTarget::resolve(Image& image, int x0, int y0) const {
                        static_cast<float>(sum[2]) * to_unit};
       image.blend(x0 + x, y0 + y, scaled(colour, l), static_cast<float>(sum[3]) / (255.0F * kSamples));
     }
-  }
+  });
 }
 
 }  // namespace tetsoup

@@ -76,6 +76,11 @@ struct EdgeStyle {
   float alpha = 1;
 };
 
+/// Rows of samples; of those that a target has.
+struct Rows {
+  int begin = 0, end = 1 << 30;
+};
+
 /// Depth-buffered triangles at kSupersampling times the resolution.
 class TriangleTarget {
  public:
@@ -83,9 +88,15 @@ class TriangleTarget {
 
   TriangleTarget(int width, int height);
 
-  void draw(const std::array<ScreenPoint, 3>& corners, const Rgb& fill, const EdgeStyle& edge);
+  /// Only rows in `rows` are touched: threads may draw different ones at a time.
+  void draw(const std::array<ScreenPoint, 3>& corners, const Rgb& fill, const EdgeStyle& edge, const Rows& rows = {});
   /// A colour for every corner, blended between them.
-  void draw_smooth(const std::array<ScreenPoint, 3>& corners, const std::array<Rgb, 3>& colours);
+  void draw_smooth(const std::array<ScreenPoint, 3>& corners, const std::array<Rgb, 3>& colours, const Rows& rows = {});
+  /// No colour, for coverage() alone.
+  void cover(const std::array<ScreenPoint, 3>& corners, const Rows& rows = {});
+  /// True of a triangle that lies between the samples of these rows, as most of a fine surface do.
+  bool misses(const std::array<ScreenPoint, 3>& corners, const Rows& rows = {}) const;
+  int row_count() const { return rows_; }
 
   /// Share of every pixel that triangles cover.
   std::vector<float> coverage() const;
@@ -95,7 +106,9 @@ class TriangleTarget {
 
  private:
   template <class ColourAt>
-  void paint(const std::array<ScreenPoint, 3>& p, const ColourAt& colour_at);
+  void paint(const std::array<ScreenPoint, 3>& p, const Rows& rows, const ColourAt& colour_at);
+  std::array<int, 2> columns_of(const std::array<ScreenPoint, 3>& p) const;
+  std::array<int, 2> rows_of(const std::array<ScreenPoint, 3>& p, const Rows& rows) const;
   float nearness_at(int x, int y) const;
   std::vector<float> ambient() const;
 

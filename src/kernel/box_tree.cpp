@@ -27,15 +27,21 @@ HWY_INLINE std::uint32_t bits_of(const Test& test) {
   return bits;
 }
 
-HWY_INLINE std::uint32_t holding(const BoxGroup& group, const Vec3& p, float margin) {
+/// A point grown by the margin meets what the point is within the margin of, and saves growing the boxes.
+struct Reach {
+  Vec3 lo, hi;
+};
+
+HWY_INLINE std::uint32_t holding(const BoxGroup& group, const Reach& reach) {
   const BoxLanes d;
-  const auto grow = hn::Set(d, margin);
-  const auto within = [&](std::size_t axis, float at, std::size_t i) {
-    const auto above = hn::Ge(hn::Set(d, at), hn::Sub(hn::Load(d, &group.lo[axis][i]), grow));
-    return hn::And(above, hn::Le(hn::Set(d, at), hn::Add(hn::Load(d, &group.hi[axis][i]), grow)));
+  const auto meets = [&](std::size_t axis, float lo, float hi, std::size_t i) {
+    return hn::And(hn::Ge(hn::Set(d, hi), hn::Load(d, &group.lo[axis][i])),
+                   hn::Le(hn::Set(d, lo), hn::Load(d, &group.hi[axis][i])));
   };
-  return bits_of(
-      [&](std::size_t i) { return hn::And(within(0, p.x, i), hn::And(within(1, p.y, i), within(2, p.z, i))); });
+  return bits_of([&](std::size_t i) {
+    return hn::And(meets(0, reach.lo.x, reach.hi.x, i),
+                   hn::And(meets(1, reach.lo.y, reach.hi.y, i), meets(2, reach.lo.z, reach.hi.z, i)));
+  });
 }
 
 HWY_INLINE std::uint32_t lying_apart(const MiddleGroup& group, const Vec3& p, float square) {
@@ -52,13 +58,13 @@ HWY_INLINE std::uint32_t lying_apart(const MiddleGroup& group, const Vec3& p, fl
 struct Query {
   const BoxTree& tree;
   const NumberedPoint& point;
-  float margin;
+  Reach reach;
   const Neighbours& neighbours;
   std::vector<PointInBox>& found;
 };
 
 void descend(const Query& query, std::size_t level, std::size_t group) {
-  std::uint32_t bits = holding(query.tree.levels[level][group], query.point.place, query.margin);
+  std::uint32_t bits = holding(query.tree.levels[level][group], query.reach);
   if (level == 0 && bits != 0 && !query.neighbours.middles.empty())
     bits &= lying_apart(query.neighbours.middles[group], query.point.rest, query.neighbours.square);
   for (; bits != 0; bits &= bits - 1) {
@@ -72,7 +78,11 @@ void descend(const Query& query, std::size_t level, std::size_t group) {
 
 void find_boxes_around(const BoxTree& tree, std::span<const NumberedPoint> points, float margin,
                        const Neighbours& neighbours, std::vector<PointInBox>& found) {
-  for (const NumberedPoint& p : points) descend({tree, p, margin, neighbours, found}, tree.levels.size() - 1, 0);
+  for (const NumberedPoint& p : points) {
+    const auto [x, y, z] = p.place;
+    const Reach reach{{x - margin, y - margin, z - margin}, {x + margin, y + margin, z + margin}};
+    descend({tree, p, reach, neighbours, found}, tree.levels.size() - 1, 0);
+  }
 }
 
 }  // namespace tetsoup::kernel::HWY_NAMESPACE

@@ -56,7 +56,8 @@ struct Neighbours {
   float square = 0;  ///< Of the distance.
 };
 
-/// Appends which points lie in which boxes grown by a margin: point after point, boxes ascending.
+/// Appends which points lie in which boxes, or within a margin of them along each axis: point after point, boxes
+/// ascending.
 void find_boxes_around(const BoxTree& tree, std::span<const NumberedPoint> points, float margin,
                        const Neighbours& neighbours, std::vector<PointInBox>& found);
 

@@ -21,6 +21,7 @@ SceneObstacle tree(double size) {
   obstacle.source.size = size;
   obstacle.source.origin = SceneOrigin::Bottom;
   obstacle.voxels = 96;
+  obstacle.friction = 0.9;
   return obstacle;
 }
 
@@ -58,8 +59,8 @@ ScenePin end_of_beam(double side) {
 Scene make_drop() {
   Scene scene;
   scene.title = "A soft robot falls on the ground";
-  SceneBody body = robot(2000, 6e4);
-  body.place = {.translate = {0, 0, 1.6}, .rotate = {25, 35, 0}, .spin = {60, 0, 0}};
+  SceneBody body = robot(2000, 5e4);
+  body.place = {.translate = {0, 0, 1.4}, .rotate = {15, 25, 0}, .spin = {60, 0, 0}};
   scene.bodies.push_back(body);
   scene.obstacles.push_back(ground());
   return scene;
@@ -69,13 +70,14 @@ Scene make_robots_on_tree() {
   Scene scene;
   scene.title = "Four robots fall on a tree (Spillmann, Wagner, Teschner 2006, Fig. 12)";
   scene.seconds = 5;
-  SceneBody body = robot(750, 8e4);
-  body.instances = {{.translate = {0.1, 0.1, 3.4}, .rotate = {0, 10, 20}},
-                    {.translate = {-0.5, -0.2, 4.7}, .rotate = {80, 0, 40}},
-                    {.translate = {0.5, -0.3, 5.6}, .rotate = {200, 30, 0}},
-                    {.translate = {0, 0.4, 7.0}, .rotate = {30, 90, 120}}};
+  SceneBody body = robot(750, 6e4);
+  body.material.friction = 0.9;
+  body.instances = {{.translate = {0.1, 0.1, 3.0}, .rotate = {0, 10, 20}},
+                    {.translate = {-0.5, -0.2, 3.7}, .rotate = {80, 0, 40}},
+                    {.translate = {0.5, -0.3, 4.3}, .rotate = {200, 30, 0}},
+                    {.translate = {0, 0.3, 4.9}, .rotate = {30, 90, 120}}};
   scene.bodies.push_back(body);
-  scene.obstacles = {ground(), tree(2.8)};
+  scene.obstacles = {ground(), tree(2.4)};
   return scene;
 }
 
@@ -85,34 +87,32 @@ Scene make_robots_on_tree_massive() {
   scene.seconds = 6;
   SceneBody body = robot(464, 8e4);
   body.place.translate = {0, 0, 9.5};
-  body.grid =
-      SceneGrid{.count = {5, 5, 5}, .spacing = {1.15, 1.15, 1.35}, .jitter = 0.05, .jitter_rotate = 25, .seed = 1};
+  body.grid = SceneGrid{.count = {5, 5, 5}, .spacing = {1, 0.85, 1.2}, .jitter = 0.04, .jitter_rotate = 25, .seed = 1};
   scene.bodies.push_back(body);
-  scene.obstacles = {ground(), tree(5.5)};
+  scene.obstacles = {ground(), tree(6)};
   return scene;
 }
 
 Scene make_stack() {
   Scene scene;
-  scene.title = "Boxes pile up, and a heart comes on top";
-  for (int i = 0; i < 5; ++i) {
+  scene.title = "Three boxes and a ring come to rest on each other";
+  for (int i = 0; i < 3; ++i) {
     SceneBody body;
-    body.source.box = Vec3d{0.5, 0.5, 0.3};
+    body.source.box = Vec3d{0.6, 0.6, 0.3};
     body.mesh.lattice.cell_size = 0.1;
-    body.material.elastic.young = 2e5;
-    body.material.damping_time = 0.01;
-    body.place.translate = {0.02 * (i % 2), 0, 0.16 + 0.36 * i};
-    body.place.rotate = {0, 0, 18.0 * i};
+    body.material.elastic.young = 3e5;
+    body.material.damping_time = 0.004;
+    body.place.translate = {0.01 * (i % 2), 0, 0.16 + 0.33 * i};
+    body.place.rotate = {0, 0, 12.0 * i};
     scene.bodies.push_back(body);
   }
-  SceneBody heart;
-  heart.source.sample = "heart";
-  heart.source.size = 0.5;
-  heart.source.origin = SceneOrigin::Centre;
-  heart.mesh.lattice.tets = 1000;
-  heart.material.damping_time = 0.01;
-  heart.place.translate = {0, 0, 2.6};
-  scene.bodies.push_back(heart);
+  SceneBody ring;
+  ring.source.sample = "torus";
+  ring.source.size = 0.6;
+  ring.mesh.lattice.tets = 1000;
+  ring.material.damping_time = 0.004;
+  ring.place = {.translate = {0, 0, 1.25}, .rotate = {0, 8, 0}};
+  scene.bodies.push_back(ring);
   scene.obstacles.push_back(ground());
   return scene;
 }
@@ -137,12 +137,14 @@ Scene make_twist() {
 Scene make_cantilever() {
   Scene scene;
   scene.title = "A beam held at one end bends under its weight";
+  scene.simulation.substeps = 20;
   SceneBody body = beam(1e6);
   body.material.elastic.poisson = 0.3;
-  body.material.damping_time = 0.01;
+  body.material.damping_time = 0.004;
   body.pins = {end_of_beam(-1)};
-  body.place.translate = {0, 0, 0.8};
+  body.place.translate = {0, 0, 0.9};
   scene.bodies.push_back(body);
+  scene.obstacles.push_back(ground());
   return scene;
 }
 
@@ -156,7 +158,7 @@ constexpr std::array<BuiltinScene, 6> kScenes{{
     {"robots-on-tree", "four robots, 3,000 tets in all, fall on a tree", make_robots_on_tree},
     {"robots-on-tree-massive", "125 robots, 58,000 tets in all, with 2,000,000 triangles on them",
      make_robots_on_tree_massive},
-    {"stack", "five boxes and a heart come to rest on each other", make_stack},
+    {"stack", "three boxes and a ring come to rest on each other", make_stack},
     {"twist", "a beam is twisted by one and a half turns and let go", make_twist},
     {"cantilever", "a beam held at one end bends under its weight", make_cantilever},
 }};

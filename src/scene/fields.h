@@ -177,7 +177,6 @@ template <class Visitor>
 void visit_fields(Visitor& v, SceneSource& s) {
   v("sample", s.sample, Text{});
   v("file", s.file, Text{});
-  v("tets_file", s.tets_file, Text{});
   v("box", s.box, kSizeRange);
   v("damage", s.damage, Range{0, 1, "at least 0 and below 1", false, true});
   v("seed", s.seed, kSeedRange);
@@ -192,6 +191,7 @@ template <class Visitor>
 void visit_fields(Visitor& v, SceneBody& b) {
   v("name", b.name, Text{});
   visit_fields(v, b.source);
+  v("tets_file", b.source.tets_file, Text{});
   v("mesh", b.mesh, Object{});
   v("material", b.material, Object{});
   v("place", b.place, Object{});
@@ -234,6 +234,7 @@ void visit_fields(Visitor& v, Scene& s) {
   v("solver", s.simulation.solver,
     Words{Word<Solver>{"implicit", Solver::Implicit}, Word<Solver>{"potentials", Solver::Potentials}});
   v("substeps", s.simulation.substeps, Range{1, 10000, "a whole number from 1 to 10000"});
+  v("max_substeps", s.simulation.max_substeps, Range{1, 10000, "a whole number from 1 to 10000"});
   v("contact_interval", s.simulation.contact_interval, Range{1, 10000, "a whole number from 1 to 10000"});
   v("contacts", s.simulation.contacts,
     Words{Word<Contacts>{"all", Contacts::All}, Word<Contacts>{"between", Contacts::Between},

@@ -51,9 +51,12 @@ void release_pins(LoadedScene& loaded, double frame) {
 }  // namespace
 
 int steps_of_frame(const LoadedScene& loaded) {
+  constexpr double kLongestStep = 1.0 / 60;  // s
+  constexpr double kRounding = 1e-9;         // 60 fps make one step
+  const int steps = static_cast<int>(std::ceil(1 / (loaded.scene.fps * kLongestStep) - kRounding));
   const SimulationOptions& options = loaded.scene.simulation;
   const bool driven = std::any_of(loaded.moved.begin(), loaded.moved.end(), is_driven);
-  return driven ? (options.substeps - 1) / options.contact_interval + 1 : 1;
+  return std::max(1, steps) * (driven ? (options.substeps - 1) / options.contact_interval + 1 : 1);
 }
 
 void advance_frame(LoadedScene& loaded) {

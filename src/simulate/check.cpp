@@ -34,6 +34,8 @@ void check_point(const Vec3d& p, std::string_view name, double limit) {
 void check(const SimulationOptions& options) {
   check_point(options.gravity, "gravity", kMaxGravity);
   require(options.substeps >= 1 && options.substeps <= kMaxSubsteps, "substeps", options.substeps, "1 to 10000");
+  require(options.max_substeps >= 1 && options.max_substeps <= kMaxSubsteps, "max_substeps", options.max_substeps,
+          "1 to 10000");
   require(options.contact_interval >= 1, "contact_interval", options.contact_interval, "at least 1");
   const PotentialOptions& p = options.potentials;
   for (const auto& [name, stiffness] :

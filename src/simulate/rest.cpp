@@ -43,7 +43,7 @@ void prepare_tet(Rest& rest, std::size_t t, double h) {
   const Tet& tet = rest.piece.tets[t];
   const TetCorners p = corners_at(rest.piece.places, tet);
   const std::array<Vec3d, 4> g = barycentric_gradients(p);
-  const double volume = signed_volume(p), stiffer = h * (h + rest.material.damping_time);
+  const double volume = signed_volume(p), stiffer = h * (h + rest.damping_time(h));
   const double stiffness = 2 * rest.shear_modulus() * volume * stiffer;
   Vec3d diagonal{1, 1, 1}, off;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -111,8 +111,27 @@ bool Rest::is_held() const {
   return std::any_of(held.begin(), held.end(), [](std::uint8_t h) { return h != 0; });
 }
 
+double mean_edge(const Piece& piece) {
+  double sum = 0;
+  for (const Tet& tet : piece.tets) {
+    const TetCorners p = corners_at(piece.places, tet);
+    for (const auto& [a, b] : kTetEdges) sum += length(p[static_cast<std::size_t>(a)] - p[static_cast<std::size_t>(b)]);
+  }
+  return sum / static_cast<double>(6 * piece.tets.size());
+}
+
+double Rest::damping_time(double h) const {
+  // A sweep does not reach the balance of a stiff body, and viscosity would keep what is amiss as if it were the
+  // strain before: beams sag, and crumple where waves of elasticity and viscosity together pass two edges in a substep.
+  constexpr double kEdges = 1;
+  constexpr double kAlways = 0.3;  // substeps: no beam crumpled at any stiffness
+  const double edges = h / wave_time();
+  return std::min(material.damping_time, h * std::max(kAlways, std::pow(kEdges / edges, 2) - 1));
+}
+
 Rest make_rest(Piece piece, const SimMaterial& material) {
   Rest rest;
+  rest.mean_edge = mean_edge(piece);
   rest.piece = std::move(piece);
   rest.material = material;
   const std::size_t count = rest.piece.places.size();

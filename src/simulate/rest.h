@@ -1,6 +1,7 @@
 // A piece of a body at rest: its tets in batches for the solver, and what they are made of.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct Rest {
   std::vector<std::uint32_t> lanes;       ///< Place of each tet in the batches: batch * kTetLanes + lane.
   std::vector<kernel::TetBatch> batches;  ///< Responses and compliances as `prepare` made them.
   std::vector<std::size_t> colours;       ///< Ends of runs of batches that share no vertex.
+  double mean_edge = 0;                   ///< m
   double prepared_for = 0;                ///< Substep, s.
 
   double shear_modulus() const { return material.elastic.young / (2 * (1 + material.elastic.poisson)); }
@@ -40,9 +42,15 @@ struct Rest {
     const double nu = material.elastic.poisson;
     return material.elastic.young * nu / ((1 + nu) * (1 - 2 * nu));
   }
+  /// In which a wave along a rod passes a mean edge, s.
+  double wave_time() const { return mean_edge / std::sqrt(material.elastic.young / material.elastic.density); }
+  /// What is taken of the material's damping in substeps of h, s.
+  double damping_time(double h) const;
   double inverse_mass(std::size_t v) const { return held[v] != 0 ? 0 : 1 / masses[v]; }
   bool is_held() const;
 };
+
+double mean_edge(const Piece& piece);
 
 Rest make_rest(Piece piece, const SimMaterial& material);
 

@@ -145,11 +145,7 @@ RestSurface make_rest_surface(const Piece& piece) {
   surface.vertices.erase(std::unique(surface.vertices.begin(), surface.vertices.end()), surface.vertices.end());
   surface.near.resize(piece.tets.size());
   order_tets(surface, piece);
-  for (const Tet& tet : piece.tets)
-    for (const auto& e : kTetEdges)
-      surface.mean_edge +=
-          length(piece.places[tet[static_cast<std::size_t>(e[0])]] - piece.places[tet[static_cast<std::size_t>(e[1])]]);
-  surface.mean_edge /= static_cast<double>(6 * piece.tets.size());
+  surface.mean_edge = mean_edge(piece);
   return surface;
 }
 

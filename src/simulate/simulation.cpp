@@ -104,8 +104,10 @@ void Simulation::remove_spring(std::size_t spring) {
 void Simulation::step(double dt) {
   require(dt > 0 && dt <= 1, "dt", dt, "above 0 and at most 1 s");
   World& world = state_->world;
-  const int substeps = count_substeps(world, dt), interval = world.options.contact_interval;
-  const double h = dt / substeps;
+  const int substeps = count_substeps(world, dt);
+  const double h = dt / substeps, longer = static_cast<double>(substeps) / world.options.substeps;
+  const int interval =
+      static_cast<int>(std::ceil(std::min(longer * world.options.contact_interval, double{kMaxSubsteps})));
   prepare_substeps(world, h);
   for (int i = 0; i < substeps; ++i) {
     if (i % interval == 0) find_contacts(world, h * std::min(interval, substeps - i));

@@ -49,7 +49,7 @@ void move_implicitly(World& world, Part& part, double h, StageWatch& watch) {
   const Vec3 kick = to_float(world.options.gravity * ((part.last_h + h) / 2));
   const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
   kernel::predict(places, start, world.slice(world.motions, part), kick, static_cast<float>(h));
-  const double damping_time = world.rest_of(part).material.damping_time;
+  const double damping_time = world.rest_of(part).damping_time(h);
   const auto damped = static_cast<float>(damping_time / (damping_time + h));
   relax(world.rest_of(part), part, {places.data(), start.data(), damped}, watch);
   settle_momenta(world, part, h);
@@ -82,10 +82,14 @@ std::vector<std::size_t> task_ends(const World& world) {
 }  // namespace
 
 int count_substeps(const World& world, double dt) {
-  if (world.options.solver == Solver::Implicit) return world.options.substeps;
-  double stable = dt / world.options.substeps;
-  for (const SpringNet& net : world.nets) stable = std::min(stable, net.stable_time_step);
-  return static_cast<int>(std::ceil(std::min(dt / stable, double{kMaxSubsteps})));
+  const bool implicit = world.options.solver == Solver::Implicit;
+  double h = dt / world.options.substeps;
+  if (implicit)
+    for (const Rest& rest : world.rests) h = std::min(h, rest.wave_time());
+  else
+    for (const SpringNet& net : world.nets) h = std::min(h, net.stable_time_step);
+  const int most = implicit ? std::max(world.options.substeps, world.options.max_substeps) : kMaxSubsteps;
+  return static_cast<int>(std::ceil(std::min(dt / h, static_cast<double>(most))));
 }
 
 void prepare_substeps(World& world, double h) {

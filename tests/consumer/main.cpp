@@ -4,6 +4,7 @@
 
 #include "tetsoup/tetsoup.h"
 #ifdef USE_IO
+#include "tetsoup/animation.h"
 #include "tetsoup/io.h"
 #endif
 
@@ -37,6 +38,10 @@ int main() {
 #ifdef USE_IO
   tetsoup::write_tets("cube.msh", mesh);
   if (tetsoup::read_tets("cube.msh").tets.size() != mesh.tets.size()) return 1;
+  tetsoup::AnimationWriter film({"cube.webp", "cube.glb"}, {{{"cube", &mesh, nullptr, nullptr}}, {}, {}});
+  film.add_frame({0, 0, {mesh.vertices}, {}, {}});
+  film.finish();
+  if (film.report().files.size() != 2) return 1;
 #endif
   return 0;
 }

@@ -36,8 +36,7 @@ void check_body(const AnimationBody& body) {
 
 /// The boundary, over its own vertices in the mesh's order.
 Make make_of_boundary(const AnimationBody& body) {
-  Make make;
-  make.body = body;
+  Make make{body.mesh, body.surface, body.embedding, {}, 0, {}};
   make.triangles = boundary_triangles(*body.mesh);
   for (const Triangle& t : make.triangles) make.shown.insert(make.shown.end(), t.begin(), t.end());
   std::sort(make.shown.begin(), make.shown.end());
@@ -52,8 +51,7 @@ Make make_of_boundary(const AnimationBody& body) {
 Make make_of(const AnimationBody& body) {
   check_body(body);
   if (body.surface == nullptr) return make_of_boundary(body);
-  Make make;
-  make.body = body;
+  Make make{body.mesh, body.surface, body.embedding, {}, 0, {}};
   make.triangles = triangles_of(*body.surface).triangles;
   make.point_count = body.surface->vertices.size();
   std::erase_if(make.triangles, [&](const Triangle& t) {
@@ -98,7 +96,7 @@ Cast make_cast(AnimationScene scene) {
 }
 
 std::vector<Vec3> Make::points(std::span<const Vec3> positions) const {
-  if (body.surface != nullptr) return deform_points(*body.embedding, body.mesh->tets, positions);
+  if (surface != nullptr) return deform_points(*embedding, mesh->tets, positions);
   std::vector<Vec3> boundary;
   boundary.reserve(shown.size());
   for (const std::uint32_t v : shown) boundary.push_back(positions[v]);
@@ -114,7 +112,7 @@ FrameView::FrameView(const Cast& cast, const AnimationFrame& frame)
   require(frame.surfaces.empty() || frame.surfaces.size() == bodies, "surfaces", frame.surfaces.size(),
           "none or one span for every body");
   for (std::size_t b = 0; b < bodies; ++b) {
-    const std::size_t vertices = make(b).body.mesh->vertices.size();
+    const std::size_t vertices = make(b).mesh->vertices.size();
     require(frame.positions[b].size() == vertices, "positions of a body", frame.positions[b].size(),
             "as many as its vertices");
     require_finite(frame.positions[b], "position of vertex");
@@ -122,8 +120,8 @@ FrameView::FrameView(const Cast& cast, const AnimationFrame& frame)
       require(frame.velocities[b].size() == vertices, "velocities of a body", frame.velocities[b].size(),
               "as many as its vertices");
     if (frame.surfaces.empty() || frame.surfaces[b].empty()) continue;
-    require(make(b).body.surface != nullptr && frame.surfaces[b].size() == make(b).point_count,
-            "surface points of a body", frame.surfaces[b].size(), "as many as its surface has vertices");
+    require(make(b).surface != nullptr && frame.surfaces[b].size() == make(b).point_count, "surface points of a body",
+            frame.surfaces[b].size(), "as many as its surface has vertices");
     require_finite(frame.surfaces[b], "position of surface point");
   }
 }

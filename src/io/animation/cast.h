@@ -12,7 +12,9 @@ namespace tetsoup::animation {
 
 /// What bodies of one make share.
 struct Make {
-  AnimationBody body;                ///< The first of them.
+  const TetMesh* mesh = nullptr;
+  const RenderMesh* surface = nullptr;  ///< Null where the mesh's boundary is seen.
+  const Embedding* embedding = nullptr;
   std::vector<Triangle> triangles;   ///< Of what is seen, over its points.
   std::size_t point_count = 0;       ///< Vertices of the surface, or else
   std::vector<std::uint32_t> shown;  ///< these of the mesh: those on its boundary.

@@ -15,9 +15,9 @@ namespace {
 
 using json = nlohmann::json;
 
-constexpr std::size_t kMaxTargets = 64;  // Of a make. Programs that draw by WebGL 2 or Vulkan bear hundreds.
+constexpr std::size_t kMaxTargets = 96;  // Of a make. Programs that draw by WebGL 2 or Vulkan bear hundreds.
 // Of a make's targets. A fine surface has fewer of them, yet enough for what bends softly.
-constexpr std::size_t kTargetBytes = std::size_t{96} << 20;
+constexpr std::size_t kTargetBytes = std::size_t{48} << 20;
 constexpr std::size_t kFewTargets = 12;
 
 /// Factors of a material are linear, colours as we state them are sRGB.
@@ -25,7 +25,7 @@ double linear(float value) {
   return value <= 0.04045F ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-std::size_t add_material(GlbBuilder& glb, const char* name, const Rgb& colour) {
+std::size_t add_material(GlbBuilder& glb, const std::string& name, const Rgb& colour) {
   return glb.add("materials", {{"name", name},
                                {"doubleSided", true},
                                {"pbrMetallicRoughness",
@@ -61,7 +61,7 @@ TriangleSoup patch_of(const AnimationPlane& plane, const Box3& box) {
 
 std::size_t add_still_node(GlbBuilder& glb, const std::string& name, const TriangleSoup& soup, std::size_t material) {
   const TetMesh rest{soup.vertices, {}};
-  Make make{{.name = name, .mesh = &rest}, soup.triangles, soup.vertices.size(), {}};
+  Make make{&rest, nullptr, nullptr, soup.triangles, soup.vertices.size(), {}};
   for (std::uint32_t v = 0; v < soup.vertices.size(); ++v) make.shown.push_back(v);
   const GlbMesh mesh(make);
   const json primitive{
@@ -77,7 +77,7 @@ std::size_t add_still_node(GlbBuilder& glb, const std::string& name, const Trian
 GlbFilm::GlbFilm(const Cast& cast, UpAxis up) : cast_(cast), up_(up) {
   std::vector<std::size_t> counts(cast.makes.size());
   for (const std::size_t make : cast.make_of) place_in_make_.push_back(counts[make]++);
-  for (std::size_t m = 0; m < cast.makes.size(); ++m) motions_.emplace_back(*cast.makes[m].body.mesh, counts[m]);
+  for (std::size_t m = 0; m < cast.makes.size(); ++m) motions_.emplace_back(*cast.makes[m].mesh, counts[m]);
 }
 
 void GlbFilm::add(FrameView& view) {
@@ -117,7 +117,6 @@ std::size_t GlbFilm::mesh_in_tone(GlbBuilder& glb, std::size_t body, const Share
     if (mesh.targets > 0) {
       json names = json::array();
       for (std::size_t k = 0; k < mesh.targets; ++k) names.push_back("shape " + std::to_string(k + 1));
-      object["weights"] = std::vector<double>(mesh.targets, 0.0);
       object["extras"] = {{"targetNames", std::move(names)}};
     }
     place->second = glb.add("meshes", std::move(object));
@@ -176,8 +175,9 @@ void GlbFilm::write(const std::filesystem::path& path, FileLog& log) {
   if (times_.empty()) return;
   if (!box_) box_ = Box3{};
   GlbBuilder glb;
-  for (std::size_t tone = 0; tone < tones::kBodies.size(); ++tone)
-    add_material(glb, ("tone " + std::to_string(tone + 1)).c_str(), tones::kBodies[tone]);
+  const std::size_t tone_count = std::min(tones::kBodies.size(), cast_.make_of.size());
+  for (std::size_t tone = 0; tone < tone_count; ++tone)
+    add_material(glb, "tone " + std::to_string(tone + 1), tones::kBodies[tone]);
   json animation{{"name", "simulation"}}, children = json::array();
   const std::size_t times = glb.add_times(times_);
   std::vector<SharedMesh> meshes;

@@ -13,7 +13,7 @@ constexpr std::uint32_t kNone = RenderMesh::kNone;
 /// Texture coordinates at the corners of the make's triangles; empty if the surface has none.
 std::vector<std::array<std::uint32_t, 3>> triangle_texcoords(const Make& make) {
   std::vector<std::array<std::uint32_t, 3>> choices;
-  const RenderMesh* surface = make.body.surface;
+  const RenderMesh* surface = make.surface;
   if (surface == nullptr || surface->corner_texcoords.empty()) return choices;
   const auto choice = [&](std::size_t corner) {
     const std::uint32_t texcoord = surface->corner_texcoords[corner];
@@ -35,7 +35,7 @@ std::vector<std::array<std::uint32_t, 3>> triangle_texcoords(const Make& make) {
 
 }  // namespace
 
-GlbMesh::GlbMesh(const Make& make) : make_(make), rest_(make.points(make.body.mesh->vertices)) {
+GlbMesh::GlbMesh(const Make& make) : make_(make), rest_(make.points(make.mesh->vertices)) {
   const SurfaceNormals normals(rest_, make.triangles);
   const auto choices = triangle_texcoords(make);
   std::vector<Vertex> corners;
@@ -53,7 +53,7 @@ GlbMesh::GlbMesh(const Make& make) : make_(make), rest_(make.points(make.body.me
         static_cast<std::uint32_t>(std::lower_bound(vertices_.begin(), vertices_.end(), corner) - vertices_.begin()));
   if (choices.empty()) return;
   for (const Vertex& vertex : vertices_) {
-    const Vec2 t = vertex.texcoord == kNone ? Vec2{0, 1} : make.body.surface->texcoords[vertex.texcoord];
+    const Vec2 t = vertex.texcoord == kNone ? Vec2{0, 1} : make.surface->texcoords[vertex.texcoord];
     texcoords_.push_back({t.x, 1 - t.y});
   }
 }
@@ -78,7 +78,7 @@ std::vector<Vec3> GlbMesh::normals_of(const std::vector<Vec3>& points) const {
 
 GlbMesh::Target GlbMesh::target(const std::vector<Vec3>& shape) const {
   // Normals are not linear in what moves: the difference over the range that is used is nearer than a derivative.
-  const std::vector<Vec3>& at_rest = make_.body.mesh->vertices;
+  const std::vector<Vec3>& at_rest = make_.mesh->vertices;
   std::vector<Vec3> less = at_rest, more = at_rest;
   for (std::size_t v = 0; v < at_rest.size(); ++v) {
     const Vec3d half = to_double(shape[v]) * 0.5;

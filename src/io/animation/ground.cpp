@@ -47,7 +47,7 @@ Ground::Ground(const AnimationPlane& plane, const Box3& box, const Vec3d& light)
   u_ = u_ * (1 / length(u_));
   v_ = cross(normal_, u_);
   radius_ = std::max(length(box.hi - box.lo) / 2, 1e-9);
-  cell_ = round_length(radius_ / 3);
+  cell_ = round_length(radius_ / 2.4);
   const std::array<double, 2> shift = on_plane(middle);
   // The origin moves by whole cells to below the middle of what is shown.
   origin_ += u_ * (std::round(shift[0] / cell_) * cell_) + v_ * (std::round(shift[1] / cell_) * cell_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/tet_faces.h"
 #include "base/vec.h"
@@ -11,7 +12,7 @@ namespace tetsoup::animation {
 namespace {
 
 constexpr double kTolerance = 5e-4;     // Of the diagonal of the mesh's box: a quarter of a pixel in most pictures.
-constexpr std::size_t kMaxBasis = 128;  // Shapes while frames come; the weights of all frames are kept.
+constexpr std::size_t kMaxBasis = 192;  // Shapes while frames come; the weights of all frames are kept.
 
 std::vector<std::uint32_t> used_vertices(const TetMesh& mesh) {
   std::vector<bool> is_used(mesh.vertices.size());
@@ -59,10 +60,6 @@ double squared(const std::vector<double>& values) {
   return sum;
 }
 
-float weight_of(const MotionKey& key, std::size_t shape) {
-  return shape < key.weights.size() ? key.weights[shape] : 0;
-}
-
 /// Sums of products of the weights of all frames.
 std::vector<double> covariance(const std::vector<BodyTrack>& tracks, std::size_t n) {
   std::vector<double> sums(n * n);
@@ -72,6 +69,37 @@ std::vector<double> covariance(const std::vector<BodyTrack>& tracks, std::size_t
         for (std::size_t j = 0; j < key.weights.size(); ++j)
           sums[i * n + j] += double{key.weights[i]} * double{key.weights[j]};
   return sums;
+}
+
+/// Weights of the shapes that `vectors` combine from the old ones.
+void turn_weights(std::vector<BodyTrack>& tracks, const std::vector<double>& vectors, std::size_t n) {
+  for (BodyTrack& track : tracks)
+    for (MotionKey& key : track.keys) {
+      std::vector<float> weights(n);
+      for (std::size_t k = 0; k < n; ++k) {
+        double sum = 0;
+        for (std::size_t i = 0; i < key.weights.size(); ++i) sum += vectors[k * n + i] * double{key.weights[i]};
+        weights[k] = static_cast<float>(sum);
+      }
+      key.weights = std::move(weights);
+    }
+}
+
+/// Drops all but the first `count` weights, and divides each of those by its largest, which is returned.
+std::vector<double> scale_weights(std::vector<BodyTrack>& tracks, std::size_t count) {
+  std::vector<double> largest(count);
+  for (BodyTrack& track : tracks)
+    for (MotionKey& key : track.keys) {
+      for (std::size_t k = count; k < key.weights.size(); ++k)
+        key.left_out += double{key.weights[k]} * double{key.weights[k]};
+      key.weights.resize(count);
+      for (std::size_t k = 0; k < count; ++k) largest[k] = std::max(largest[k], std::abs(double{key.weights[k]}));
+    }
+  for (BodyTrack& track : tracks)
+    for (MotionKey& key : track.keys)
+      for (std::size_t k = 0; k < count; ++k)
+        key.weights[k] = largest[k] > 0 ? static_cast<float>(double{key.weights[k]} / largest[k]) : 0.0F;
+  return largest;
 }
 
 /// How many of the leading weights tell every frame within tolerance.
@@ -174,28 +202,15 @@ void MakeMotion::add(std::size_t body, std::span<const Vec3> positions) {
 ReducedMotion MakeMotion::reduce(std::size_t max_shapes) {
   const std::size_t n = basis_.size();
   const EigenSystem system = symmetric_eigen(covariance(tracks_, n), n);
-  for (BodyTrack& track : tracks_)
-    for (MotionKey& key : track.keys) {
-      std::vector<float> weights(n);
-      for (std::size_t k = 0; k < n; ++k) {
-        double sum = 0;
-        for (std::size_t i = 0; i < n; ++i) sum += system.vectors[k * n + i] * double{weight_of(key, i)};
-        weights[k] = static_cast<float>(sum);
-      }
-      key.weights = std::move(weights);
-    }
+  turn_weights(tracks_, system.vectors, n);
   const std::size_t count = std::min(shapes_needed(tracks_, n, tolerance_squared()), max_shapes);
   ReducedMotion motion;
-  std::vector<double> largest(count);
-  for (BodyTrack& track : tracks_)
-    for (MotionKey& key : track.keys) {
-      for (std::size_t k = count; k < n; ++k) key.left_out += double{key.weights[k]} * double{key.weights[k]};
-      key.weights.resize(count);
-      for (std::size_t k = 0; k < count; ++k) largest[k] = std::max(largest[k], std::abs(double{key.weights[k]}));
-      if (!used_.empty())
-        motion.error =
-            std::max(motion.error, track.scale * std::sqrt(key.left_out / static_cast<double>(used_.size())));
-    }
+  const std::vector<double> largest = scale_weights(tracks_, count);
+  for (const BodyTrack& track : tracks_)
+    for (const MotionKey& key : track.keys)
+      motion.error =
+          std::max(motion.error,
+                   track.scale * std::sqrt(key.left_out / static_cast<double>(std::max<std::size_t>(1, used_.size()))));
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<Vec3d> sums(used_.size());
     for (std::size_t i = 0; i < n; ++i) {
@@ -206,10 +221,6 @@ ReducedMotion MakeMotion::reduce(std::size_t max_shapes) {
     std::vector<Vec3>& shape = motion.shapes.emplace_back(vertex_count_);
     for (std::size_t v = 0; v < used_.size(); ++v) shape[used_[v]] = to_float(sums[v]);
   }
-  for (BodyTrack& track : tracks_)
-    for (MotionKey& key : track.keys)
-      for (std::size_t k = 0; k < count; ++k)
-        key.weights[k] = largest[k] > 0 ? static_cast<float>(double{key.weights[k]} / largest[k]) : 0.0F;
   motion.tracks = std::move(tracks_);
   return motion;
 }

@@ -1,13 +1,11 @@
 #include "io/animation/painter.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 
+#include "base/parallel.h"
 #include "base/vec.h"
-#include "io/animation/corner_normals.h"
 #include "io/animation/tones.h"
 #include "io/preview_panels.h"
 #include "io/text.h"
@@ -15,6 +13,7 @@
 namespace tetsoup::animation {
 namespace {
 
+constexpr std::size_t kBatch = 16;  // Bodies whose corners are held at a time.
 constexpr Rgb kSkyTop = rgb(0xf8fafc), kSkyBottom = rgb(0xe8edf2);
 
 Vec3d axis_of(UpAxis up) {
@@ -28,27 +27,10 @@ std::vector<Vec3d> corners_of(const Box3& box) {
   return corners;
 }
 
-/// In front of the eye; what is behind it, or has flown to it, cannot be drawn.
-bool is_visible(const ScreenPoint& p) {
-  constexpr double kNearest = 20;  // One over the distance, of which the middle has 1/4.
-  return p.nearness > 0 && p.nearness < kNearest;
-}
-
-/// Median length of edges in pixels.
-double typical_edge(const std::vector<ScreenPoint>& seen, const std::vector<Triangle>& triangles) {
-  std::vector<double> lengths;
-  for (const Triangle& t : triangles)
-    lengths.push_back(std::hypot(seen[t[0]].x - seen[t[1]].x, seen[t[0]].y - seen[t[1]].y));
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle / TriangleTarget::kSupersampling;
-}
-
 }  // namespace
 
 Box3 default_view(const Cast& cast, FrameView& first, UpAxis up) {
-  constexpr double kSpread = 0.12;  // Of the way down, that what falls may roll aside.
+  constexpr double kSpread = 0.18;  // Of the way down, that what falls may roll aside.
   constexpr double kSag = 0.25;     // Of the width, where nothing is below.
   const Vec3d vertical = axis_of(up);
   Box3 box = box_of(first);
@@ -75,11 +57,11 @@ Box3 default_view(const Cast& cast, FrameView& first, UpAxis up) {
 
 Painter::Painter(const Cast& cast, const Box3& box, const AnimationOptions& options)
     : view_(corners_of(box), static_cast<int>(options.up), options.width, options.height),
-      vertical_(axis_of(options.up)),
       backdrop_(options.width, options.height, kSkyTop) {
   // From above, the viewer's left and the front.
-  light_ = vertical_ * 1.0 - view_.level_axes()[0] * 0.42 + view_.level_axes()[1] * 0.30;
-  light_ = light_ * (1 / length(light_));
+  const Vec3d vertical = axis_of(options.up);
+  const Vec3d light = vertical - view_.level_axes()[0] * 0.42 + view_.level_axes()[1] * 0.30;
+  light_ = {vertical, light * (1 / length(light)), view_.towards_eye()};
   for (int y = 0; y < options.height; ++y) {
     const float t = static_cast<float>(y) / static_cast<float>(options.height);
     fill_rect(backdrop_, {0, y, options.width, 1}, mix(kSkyTop, kSkyBottom, t));
@@ -87,24 +69,39 @@ Painter::Painter(const Cast& cast, const Box3& box, const AnimationOptions& opti
   std::vector<double> depths(backdrop_.pixels.size(), std::numeric_limits<double>::infinity());
   Layers layers{{options.width, options.height}, {}};
   for (const AnimationPlane& plane : cast.scene.planes) {
-    Ground& ground = grounds_.emplace_back(plane, box, light_);
+    Ground& ground = grounds_.emplace_back(plane, box, light_.towards_light);
     ground.draw(backdrop_, view_, depths);
     layers.shadows.push_back(ground.shadow_target());
   }
+  std::vector<Drawable> obstacles;
   for (const TriangleSoup& obstacle : cast.obstacles)
-    add_smooth(layers, obstacle.vertices, obstacle.triangles, tones::kObstacle);
+    obstacles.emplace_back(obstacle.vertices, obstacle.triangles, tones::kObstacle, Look::Smooth, light_, view_,
+                           grounds_);
+  add(layers, obstacles);
   static_ = std::move(layers);
+}
+
+std::vector<Drawable> Painter::drawables(FrameView& view, std::size_t begin, std::size_t end) const {
+  std::vector<std::optional<Drawable>> made(end - begin);
+  for (std::size_t b = begin; b < end; ++b) view.points(b);  // Which is parallel itself.
+  const Progress nobody;
+  StageWatch watch(nobody, "draw");
+  parallel_for(static_cast<std::int64_t>(end - begin), 1, watch, [&](std::int64_t at, std::int64_t) {
+    const std::size_t b = begin + static_cast<std::size_t>(at);
+    const Make& make = view.make(b);
+    made[static_cast<std::size_t>(at)].emplace(view.points(b), make.triangles, tones::of_body(b),
+                                               make.surface != nullptr ? Look::Smooth : Look::Faceted, light_, view_,
+                                               grounds_);
+  });
+  std::vector<Drawable> drawables;
+  for (std::optional<Drawable>& drawable : made) drawables.push_back(*std::move(drawable));
+  return drawables;
 }
 
 Image Painter::draw(FrameView& view) const {
   Layers layers = *static_;
-  for (std::size_t b = 0; b < view.body_count(); ++b) {
-    const Make& make = view.make(b);
-    if (make.body.surface != nullptr)
-      add_smooth(layers, view.points(b), make.triangles, tones::of_body(b));
-    else
-      add_tets(layers, view.points(b), make.triangles, tones::of_body(b));
-  }
+  for (std::size_t first = 0; first < view.body_count(); first += kBatch)
+    add(layers, drawables(view, first, std::min(view.body_count(), first + kBatch)));
   Image image = backdrop_;
   for (std::size_t g = 0; g < grounds_.size(); ++g) grounds_[g].draw_shadows(image, layers.shadows[g]);
   layers.seen.resolve(image, 0, 0);
@@ -115,61 +112,24 @@ Image Painter::draw(FrameView& view) const {
   return image;
 }
 
-void Painter::add_smooth(Layers& layers, std::span<const Vec3> points, const std::vector<Triangle>& triangles,
-                         const Rgb& colour) const {
-  const SurfaceNormals normals(points, triangles);
-  const std::vector<ScreenPoint> seen = projected(points);
-  std::vector<Rgb> lit(points.size());
-  for (std::size_t v = 0; v < points.size(); ++v) lit[v] = shaded(colour, normals.of_vertices[v]);
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const Triangle& t = triangles[i];
-    if (!is_visible(seen[t[0]]) || !is_visible(seen[t[1]]) || !is_visible(seen[t[2]])) continue;
-    std::array<Rgb, 3> colours{lit[t[0]], lit[t[1]], lit[t[2]]};
-    for (std::size_t c = 0; c < 3; ++c)
-      if (!normals.is_smooth(t, i, c)) colours[c] = shaded(colour, normals.of_triangles[i]);
-    layers.seen.draw_smooth({seen[t[0]], seen[t[1]], seen[t[2]]}, colours);
-  }
-  add_shadows(layers, points, triangles);
-}
-
-void Painter::add_tets(Layers& layers, std::span<const Vec3> points, const std::vector<Triangle>& triangles,
-                       const Rgb& colour) const {
-  const SurfaceNormals normals(points, triangles);
-  const std::vector<ScreenPoint> seen = projected(points);
-  // Edges of faces a few pixels wide would hide the faces.
-  const double alpha = std::clamp((typical_edge(seen, triangles) - 3) / 14, 0.0, 1.0);
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const Triangle& t = triangles[i];
-    if (!is_visible(seen[t[0]]) || !is_visible(seen[t[1]]) || !is_visible(seen[t[2]])) continue;
-    const Rgb face = shaded(colour, normals.of_triangles[i]);
-    const EdgeStyle edge{mix(face, palette::kInk, 0.6F), 0.9, static_cast<float>(0.7 * alpha)};
-    layers.seen.draw({seen[t[0]], seen[t[1]], seen[t[2]]}, face, edge);
-  }
-  add_shadows(layers, points, triangles);
-}
-
-void Painter::add_shadows(Layers& layers, std::span<const Vec3> points, const std::vector<Triangle>& triangles) const {
-  std::vector<ScreenPoint> dropped(points.size());
-  for (std::size_t g = 0; g < grounds_.size(); ++g) {
-    for (std::size_t v = 0; v < points.size(); ++v) dropped[v] = grounds_[g].shadow_of(to_double(points[v]));
-    for (const Triangle& t : triangles) layers.shadows[g].draw({dropped[t[0]], dropped[t[1]], dropped[t[2]]}, {}, {});
-  }
-}
-
-std::vector<ScreenPoint> Painter::projected(std::span<const Vec3> points) const {
-  std::vector<ScreenPoint> seen;
-  seen.reserve(points.size());
-  for (const Vec3& p : points) seen.push_back(view_.project(to_double(p)));
-  return seen;
-}
-
-Rgb Painter::shaded(const Rgb& colour, const Vec3& normal) const {
-  Vec3d n = to_double(normal);
-  // Both sides look alike: nobody knows which one of a soup's is outside.
-  if (dot(n, view_.towards_eye()) < 0) n = n * -1;
-  const double light = 0.52 + 0.10 * dot(n, vertical_) + 0.40 * std::max(0.0, dot(n, light_)) +
-                       0.14 * std::max(0.0, dot(n, view_.towards_eye()));
-  return scaled(colour, static_cast<float>(light));
+// Rows are shared out between threads; within each of them the order is that of the drawables.
+void Painter::add(Layers& layers, const std::vector<Drawable>& drawables) const {
+  constexpr int kBands = 8;  // A layer.
+  const Progress nobody;
+  StageWatch watch(nobody, "draw");
+  const auto layer_count = static_cast<std::int64_t>(1 + grounds_.size());
+  parallel_for(layer_count * kBands, 1, watch, [&](std::int64_t begin, std::int64_t) {
+    const auto layer = static_cast<std::size_t>(begin / kBands);
+    const int band = static_cast<int>(begin % kBands);
+    TriangleTarget& target = layer == 0 ? layers.seen : layers.shadows[layer - 1];
+    const Rows rows{target.row_count() * band / kBands, target.row_count() * (band + 1) / kBands};
+    for (const Drawable& drawable : drawables) {
+      if (layer == 0)
+        drawable.draw(target, rows);
+      else
+        drawable.draw_shadow(layer - 1, target, rows);
+    }
+  });
 }
 
 }  // namespace tetsoup::animation

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/animation/cast.h"
+#include "io/animation/drawable.h"
 #include "io/animation/ground.h"
 #include "io/preview_view.h"
 #include "io/raster.h"
@@ -25,16 +26,11 @@ class Painter {
     TriangleTarget seen;
     std::vector<TriangleTarget> shadows;  // Of every ground.
   };
-  void add_smooth(Layers& layers, std::span<const Vec3> points, const std::vector<Triangle>& triangles,
-                  const Rgb& colour) const;
-  void add_tets(Layers& layers, std::span<const Vec3> points, const std::vector<Triangle>& triangles,
-                const Rgb& colour) const;
-  void add_shadows(Layers& layers, std::span<const Vec3> points, const std::vector<Triangle>& triangles) const;
-  std::vector<ScreenPoint> projected(std::span<const Vec3> points) const;
-  Rgb shaded(const Rgb& colour, const Vec3& normal) const;
+  std::vector<Drawable> drawables(FrameView& view, std::size_t begin, std::size_t end) const;
+  void add(Layers& layers, const std::vector<Drawable>& drawables) const;
 
   PreviewView view_;
-  Vec3d vertical_, light_;
+  Light light_;
   std::vector<Ground> grounds_;
   Image backdrop_;                // Sky and grounds.
   std::optional<Layers> static_;  // Obstacles.

@@ -37,7 +37,7 @@ std::string SurfaceSeries::obj_text(FrameView& view) const {
     const Make& make = view.make(b);
     const std::string& name = cast_.scene.bodies[b].name;
     append_name_line(text, "o", name);
-    if (const RenderMesh* surface = make.body.surface; surface != nullptr) {
+    if (const RenderMesh* surface = make.surface; surface != nullptr) {
       append_obj(text, *surface, {view.points(b), {}, name, first_vertex, first_texcoord});
       first_texcoord += surface->texcoords.size();
     } else {
