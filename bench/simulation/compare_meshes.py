@@ -29,13 +29,21 @@ def child(script, *arguments):
     return {"why": "crashes" if done.returncode < 0 else last[:80]}
 
 
-def measure(name, folder, makers):
+def meshed(maker, name, path, keep):
+    """What meshers.py says, now or, if it is to be kept, in the run before."""
+    said = path.with_suffix(".said.json")
+    if not (keep and said.exists()):
+        said.write_text(json.dumps(child("meshers.py", maker, name, path)))
+    return json.loads(said.read_text())
+
+
+def measure(name, folder, makers, keep):
     """A row for every mesher, one after the other."""
     folder.mkdir(parents=True, exist_ok=True)
     rows = {}
     for maker in makers:
         path = folder / f"{name}_{maker.replace(', ', '_')}.npz"
-        row = {"object": name, "maker": maker, "meshing": child("meshers.py", maker, name, path)}
+        row = {"object": name, "maker": maker, "meshing": meshed(maker, name, path, keep)}
         if "why" not in row["meshing"]:
             row |= child("simulate_mesh.py", path)
         print(f"  {name:10} {maker:22} {describe(row)}", flush=True)
@@ -51,17 +59,17 @@ def describe(row):
 
 def table(rows):
     header = ["object", "mesh", "tets", "smallest angle", "meshing s", "largest explicit step, us", "explicit work, M tet steps a second",
-              "Implicit: s a second", "Implicit stable", "Potentials: step, us", "Potentials: s a second"]
+              "Implicit: substeps a frame", "s a second", "stable", "Potentials: step, us", "Potentials: s a second"]
     lines = []
     for row in rows:
         cells = [row["object"], row["maker"]]
         if "potentials" not in row:
-            lines.append([*cells, "–", "–", "–", "–", "–", "–", row.get("why") or row["meshing"]["why"], "–", "–"])
+            lines.append([*cells, "–", "–", "–", "–", "–", "–", "–", row.get("why") or row["meshing"]["why"], "–", "–"])
             continue
         implicit, potentials = row["implicit"], row["potentials"]
         lines.append([
             *cells, f"{row['tets']:,}", f"{row['angle']:.1f}", f"{row['meshing']['seconds']:.2g}", f"{1e6 * row['step']:.3g}",
-            f"{row['tets'] / row['step'] / 1e6:.3g}", f"{implicit['per_second']:.3g}",
+            f"{row['tets'] / row['step'] / 1e6:.3g}", f"{1 / 60 / implicit['step']:.0f}", f"{implicit['per_second']:.3g}",
             "yes" if implicit["stable"] else implicit["why"], f"{1e6 * potentials['step']:.3g}",
             f"{potentials['per_second']:.3g}"])
     return header, lines

@@ -43,8 +43,9 @@ def write_scene(folder, name, mesh, places):
     folder.mkdir(parents=True, exist_ok=True)
     mesh = tetsoup.TetMesh(standing(mesh.points), mesh.tets)
     paths = {kind: str(folder / f"{name}.{kind}") for kind in ("npz", "msh", "vtk")}
-    numpy.savez(folder / f"{name}.part.npz", points=mesh.points, tets=mesh.tets)
-    os.replace(folder / f"{name}.part.npz", paths["npz"])  # another run may be reading
+    part = folder / f"{name}.{os.getpid()}"  # another run may be reading the files
+    numpy.savez(f"{part}.npz", points=mesh.points, tets=mesh.tets)
+    os.replace(f"{part}.npz", paths["npz"])
     mesh.save(paths["msh"], engine="mujoco")
     mesh.save(paths["vtk"], engine="bullet")
     a, b = (mesh.points[mesh.tets[:, list(corner)]] for corner in ((0, 0, 0, 1, 1, 2), (1, 2, 3, 2, 3, 3)))
@@ -54,8 +55,8 @@ def write_scene(folder, name, mesh, places):
         "edge": float(numpy.linalg.norm(a - b, axis=2).mean()),
     }
     scene["path"] = str(folder / f"{name}.json")
-    (folder / f"{name}.part.json").write_text(json.dumps(scene))
-    os.replace(folder / f"{name}.part.json", scene["path"])
+    pathlib.Path(f"{part}.json").write_text(json.dumps(scene))
+    os.replace(f"{part}.json", scene["path"])
     return scene
 
 

@@ -1,9 +1,9 @@
 """How well a mesh simulates, in a process of its own: simulate_mesh.py MESH.npz. One line of JSON.
 
 `step` is the largest with which explicit integration of linear elasticity is stable, 2 / omega of the stiffest mode, by
-scipy: what any explicit solver must keep to, whoever wrote it. Then the mesh is dropped, once with Solver.Implicit at its
-own ten substeps of a frame, once with Solver.Potentials, which takes as many as its own bound asks for; without damping there,
-which would shorten explicit steps for every mesh alike.
+scipy: what any explicit solver must keep to, whoever wrote it. Then the mesh is dropped, once with Solver.Implicit as it is
+when nothing is said, once with Solver.Potentials, which takes as many substeps as its own bound asks for; without damping
+there, which would shorten explicit steps for every mesh alike.
 """
 import json
 import sys
