@@ -138,6 +138,10 @@ def describe(row):
 
 # --- table -----------------------------------------------------------------------------------------------------------
 
+def brief(value):
+    return f"{value:,.0f}" if value >= 100 else f"{value:.3g}"
+
+
 def number(value, form):
     return "–" if value is None or math.isnan(value) else form.format(value)
 
@@ -158,8 +162,8 @@ def table(rows):
                 verdict = "stable"
             if row["simulated"] < SECONDS - 1e-6:
                 verdict += f", first {row['simulated']:.2f} s"
-            ratio = f"{own[row['case']] / row['factor']:.3g}" if row["case"] in own and row["right"] else ""
-            cells += [f"{row['factor']:.3g}", f"{row['ns']:,.3g}", number(row["softness"], "{:.2f}"),
+            ratio = brief(own[row["case"]] / row["factor"]) if row["case"] in own and row["right"] else ""
+            cells += [brief(row["factor"]), brief(row["ns"]), number(row["softness"], "{:.2f}"),
                       f"{100 * (row['energy'] - 1):+.1f} %", f"{100 * row['swelling']:.1f} %", verdict, ratio]
         else:
             cells += ["–", "–", number(row.get("softness"), "{:.2f}"), "–", "–", f"not stable: {row['why']}", ""]
