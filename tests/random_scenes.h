@@ -95,6 +95,7 @@ inline Scene random_scene(std::uint64_t seed) {
   Scene scene;
   scene::visit_fields(fields, scene);
   scene.simulation.substeps = 1 + static_cast<int>(fields.below(6));
+  scene.simulation.max_substeps = 1 + static_cast<int>(fields.below(12));
   scene.seconds = 4 / scene.fps;
   const std::size_t bodies = 1 + fields.below(3);
   for (std::size_t i = 0; i < bodies; ++i) {

@@ -94,6 +94,7 @@ TEST_F(Tool, refuses_what_an_engine_cannot_be_given_before_any_work) {
       {{"-o", "x", "-o", "y", "--for", "mujoco"}, {"--for", "exactly one -o"}},
       {{"-o", "x.msh", "--for", "mujoco", "--format", "msh"}, {"--for", "--format"}},
       {{"-o", "x", "--for", "mujoco", "--json", "x.msh"}, {"--json", "x.msh"}},
+      {{"-o", "x", "--for", "newton", "--embed", "x.npz"}, {"--embed x.npz", "-o writes a file of this name"}},
       {{"-o", "x.msh", "--up", "w"}, {"--up w", "x, y or z"}},
       {{"-o", "cube", "--for", "blender"}, {"-o", "cube.obj", "input"}}};
   for (const auto& [words, parts] : wrong) {

@@ -121,10 +121,13 @@ TEST_F(ModelTool, wrong_names_and_numbers_are_refused_before_the_work_and_say_wh
     EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
     EXPECT_EQ(files(), (Words{"cube.obj", "lamp.obj"}));
   };
-  fails({"--pin-part", "Top"}, "no part 'Top'; it has object 'Base plate', object 'Pillar', material 'steel'");
+  fails({"--pin-part", "Top"},
+        "no part 'Top'; it has object 'Base plate', object 'Pillar', material 'steel', material "
+        "'foam', connected part_1 to part_2");
   fails({"--regions", "object", "--region", "steel=5"}, "no object 'steel'");
   fails({"--region", "steel=5"}, "needs --regions");
-  fails({"--regions", "colour"}, "must be object, group or material");
+  fails({"--regions", "part", "--region", "part_3=5"}, "no part 'part_3'");
+  fails({"--regions", "colour"}, "must be object, group, material or part");
   fails({"--regions", "material", "--region", "steel"}, "must be NAME=DENSITY,YOUNG,POISSON");
   fails({"--regions", "material", "--region", "steel="}, "must be NAME=");
   fails({"--regions", "material", "--region", "steel=-5"}, "above 0");
@@ -141,13 +144,38 @@ TEST_F(ModelTool, wrong_names_and_numbers_are_refused_before_the_work_and_say_wh
 TEST_F(ModelTool, a_model_without_names_is_one_region_and_says_so) {
   const Outcome outcome = run({"mesh", "cube.obj", "-o", "cube.msh", "--voxels", "24", "--regions", "group"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("Note: the model names nothing that makes regions"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("Note: nothing in the model tells regions apart that way"), std::string::npos)
+      << outcome.out;
+}
+
+TEST_F(ModelTool, regions_and_pins_may_be_connected_parts) {
+  const Outcome outcome = mesh({"-o", "lamp.json", "--regions", "part", "--region", "part_2=80", "--pin-part", "part_1",
+                                "--pin-part", "Base plate"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json by_part = Json::parse(read_text(in_folder("lamp.json")));
+  EXPECT_EQ(by_part.at("regions")[0].at("name"), "part_1");
+  EXPECT_EQ(by_part.at("regions")[1].at("density"), 80);
+  EXPECT_EQ(by_part.at("pins")[0].at("vertices"), by_part.at("pins")[1].at("vertices"));
+  ASSERT_EQ(mesh({"-o", "lamp.json", "--regions", "object"}).exit_code, 0);
+  EXPECT_EQ(Json::parse(read_text(in_folder("lamp.json"))).at("tet_regions"), by_part.at("tet_regions"));
+}
+
+TEST_F(ModelTool, parts_without_tets_are_no_regions) {
+  // A crumb on a box: the box has all tets.
+  write_text(in_folder("crumb.obj"),
+             read_text(in_folder("cube.obj")) + "v 0.5 1 0.5\nv 0.51 1 0.5\nv 0.5 1 0.51\nf -1 -2 -3\n");
+  const Outcome outcome = run({"mesh", "crumb.obj", "-o", "crumb.msh", "--voxels", "24", "--regions", "part"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Regions: part_1 ("), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("part_2"), std::string::npos) << outcome.out;
 }
 
 TEST_F(ModelTool, inspect_lists_the_parts) {
   const std::string out = run({"inspect", "lamp.obj"}).out;
-  for (const char* part : {"Base plate", "Pillar", "steel", "foam"})
+  for (const char* part : {"Base plate", "Pillar", "steel", "foam", "part_1", "part_2"})
     EXPECT_NE(out.find(part), std::string::npos) << out;
+  EXPECT_NE(out.find("12  box from (-1, 0, -1) to (1, 0.3, 1)"), std::string::npos) << out;
+  EXPECT_EQ(run({"inspect", "cube.obj"}).out.find("part_1"), std::string::npos);
 }
 
 }  // namespace

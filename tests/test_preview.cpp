@@ -125,6 +125,15 @@ TEST(Preview, has_the_same_bytes_for_the_same_scene) {
   EXPECT_EQ(drawn(first.scene), drawn(second.scene));
 }
 
+TEST(Preview, stands_as_it_is_told_or_as_the_shape_does) {
+  SmallScene small;  // A ball stands on any side, which counts as y up.
+  const std::string guessed = drawn(small.scene);
+  small.scene.up = UpAxis::Y;
+  EXPECT_EQ(drawn(small.scene), guessed);
+  small.scene.up = UpAxis::Z;
+  EXPECT_NE(drawn(small.scene), guessed);
+}
+
 TEST(Preview, leaves_out_the_panels_that_have_no_input) {
   SmallScene small;
   const int four = Picture(drawn(small.scene)).height;

@@ -68,6 +68,34 @@ TEST(Regions, unusable_triangles_claim_nothing) {
   EXPECT_THROW(label_tets(mesh, soup, std::vector<std::uint32_t>{1}), InvalidInput);
 }
 
+TEST(Regions, parts_are_what_is_connected_and_the_largest_comes_first) {
+  const TriangleSoup box = test::make_box({0, 0, 0}, {1, 1, 1});
+  TriangleSoup soup = test::joined(test::joined(box, test::make_ball(1, {5, 0, 0})), box);
+  const std::size_t ball = soup.triangles.size() - 2 * box.triangles.size();
+  for (std::size_t i = 0; i < 8; ++i) soup.vertices[soup.vertices.size() - 1 - i].x += 9;
+  std::vector<std::uint32_t> wanted(box.triangles.size(), 1);
+  wanted.resize(wanted.size() + ball, 0);
+  wanted.resize(wanted.size() + box.triangles.size(), 2);
+  EXPECT_EQ(label_parts(soup), wanted);
+  EXPECT_EQ(clean_soup(soup).report.components, 3U);
+}
+
+TEST(Regions, parts_are_joined_by_equal_positions_not_by_indices) {
+  // Three loose triangles of nine vertices: two meet in one corner, where one has -0, the third stands apart.
+  const TriangleSoup soup{
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0F, 1, 0}, {5, 5, 5}, {5, 6, 5}, {9, 9, 9}, {9, 8, 9}, {8, 9, 9}},
+      {{6, 7, 8}, {0, 1, 2}, {3, 4, 5}}};
+  EXPECT_EQ(label_parts(soup), std::vector<std::uint32_t>({1, 0, 0}));
+}
+
+TEST(Regions, unusable_triangles_join_no_parts) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const TriangleSoup soup{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}, {5, 6, 5}, {6, 5, 5}, {nan, 0, 0}},
+                          {{3, 4, 5}, {0, 1, 2}, {0, 3, 6}, {0, 3, 99}}};
+  EXPECT_EQ(label_parts(soup), std::vector<std::uint32_t>({0, 1, 0, 0}));
+  EXPECT_EQ(label_parts({}), std::vector<std::uint32_t>());
+}
+
 TEST(Regions, boxes_and_planes_choose_vertices) {
   const TetMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}};
   EXPECT_EQ(vertices_in_box(mesh, {{0, 0, 0}, {1, 0.5, 1}}), std::vector<std::uint32_t>({0, 1, 3}));

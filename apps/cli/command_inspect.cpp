@@ -51,8 +51,12 @@ Diagnosis diagnose(const std::string& input, const Material& material, ProgressB
   }
   const RenderMesh surface = read_render_mesh(input);
   const std::vector<PartName> parts = part_names(surface);
-  const SoupReport report = clean_soup(triangles_of(surface), bar.callback()).report;
-  return {tabulate_soup(input, report, parts), soup_report_json(input, report, parts)};
+  const TriangleSoup soup = triangles_of(surface);
+  const SoupReport report = clean_soup(soup, bar.callback()).report;
+  std::string table = tabulate_soup(input, report, parts);
+  if (report.kind != SoupClass::Empty)
+    table += tabulate_connected_parts(soup) + "Mesh it with: tetsoup mesh " + input + " -o out.msh\n";
+  return {table, soup_report_json(input, report, parts)};
 }
 
 void run_inspect(const InspectCommand& command) {

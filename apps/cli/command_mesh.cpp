@@ -114,7 +114,7 @@ void write_meshes(const MeshCommand& command, const std::vector<PlannedMesh>& pl
   run.seconds.write = watch.seconds();
 }
 
-void draw_preview(const std::string& path, MeshRun& run, NewFiles& files) {
+void draw_preview(const std::string& path, std::optional<UpAxis> up, MeshRun& run, NewFiles& files) {
   throw_if_interrupted();
   const Stopwatch watch;
   const Pipeline& pipeline = *run.pipeline;
@@ -126,6 +126,7 @@ void draw_preview(const std::string& path, MeshRun& run, NewFiles& files) {
   scene.volume = &pipeline.pseudo_volume();
   scene.lattice = &pipeline.lattice().mesh;
   scene.mesh = &pipeline.smooth().mesh;
+  scene.up = up;
   scene.title = std::filesystem::path(run.input).filename().string();
   scene.captions = {
       fmt::format("{}, {}", counted(soup.used_triangles, "triangle"), counted(soup.boundary_edges, "open edge")),
@@ -166,7 +167,7 @@ void run_mesh(MeshCommand& command) {
   bar.show("write");
   NewFiles files;
   write_meshes(command, planned, run, files);
-  if (command.preview) draw_preview(*command.preview, run, files);
+  if (command.preview) draw_preview(*command.preview, command.model.up, run, files);
   bar.clear();
   throw_if_interrupted();
   run.seconds.total = watch.seconds();

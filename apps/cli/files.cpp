@@ -55,7 +55,9 @@ namespace {
 
 void refuse_tets(const fs::path& path) {
   if (is_tet_file(path))
-    throw IoError(path.string() + ": this is a tet mesh already; `tetsoup inspect` shows its quality");
+    throw IoError(path.string() +
+                  ": this is a tet mesh already, where triangles are wanted; `tetsoup inspect` shows how good it is if "
+                  "it is .msh .vtk .vtu .mesh .npz or .node");
 }
 
 }  // namespace
@@ -84,9 +86,11 @@ void Outputs::add(std::string_view flag, const fs::path& path) {
   if (!input_.empty() && fs::equivalent(path, input_, error))
     throw InvalidInput(fmt::format("{} {}: this is the input; choose another name", flag, path.string()));
   const fs::path whole = fs::weakly_canonical(folder, error) / path.filename();
-  if (std::find(added_.begin(), added_.end(), whole) != added_.end())
-    throw InvalidInput(fmt::format("{} {}: named twice as an output; choose another name", flag, path.string()));
-  added_.push_back(whole);
+  const auto same = std::find_if(added_.begin(), added_.end(), [&](const Added& other) { return other.path == whole; });
+  if (same != added_.end())
+    throw InvalidInput(
+        fmt::format("{} {}: {} writes a file of this name; choose another name", flag, path.string(), same->flag));
+  added_.push_back({whole, std::string(flag)});
 }
 
 void Outputs::add(std::string_view flag, const fs::path& path, std::string_view extension) {

@@ -41,7 +41,11 @@ class Outputs {
 
  private:
   std::filesystem::path input_;
-  std::vector<std::filesystem::path> added_;
+  struct Added {
+    std::filesystem::path path;
+    std::string flag;
+  };
+  std::vector<Added> added_;
 };
 
 /// Removes the files that a run has made, unless the run gets to its end.

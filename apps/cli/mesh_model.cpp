@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "files.h"
-#include "report_json.h"
 #include "summary.h"
 #include "tetsoup/error.h"
 
@@ -20,67 +18,28 @@ UpAxis usual_up_axis(const std::filesystem::path& input) {
   return extension == ".obj" || extension == ".gltf" || extension == ".glb" ? UpAxis::Y : UpAxis::Z;
 }
 
-const std::string& name_of(const RenderMesh::Part& part, PartKind kind) {
-  return kind == PartKind::Object ? part.object : kind == PartKind::Group ? part.group : part.material;
-}
-
-/// " (objects: a, b; materials: c)", as far as a line holds them.
-std::string known_names(const RenderMesh& surface) {
-  constexpr std::size_t kMost = 12;
-  const std::vector<PartName> names = part_names(surface);
-  if (names.empty()) return "; the model names no objects, groups or materials";
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
-    text += fmt::format("{} {} '{}'", i == 0 ? "; it has" : ",", kind_name(names[i].kind), names[i].name);
-  return names.size() > kMost ? text + fmt::format(" and {} more: tetsoup inspect", names.size() - kMost) : text;
-}
-
-bool has_part(const RenderMesh& surface, const std::string& name) {
-  return std::any_of(surface.parts.begin(), surface.parts.end(), [&](const RenderMesh::Part& part) {
-    return part.object == name || part.group == name || part.material == name;
-  });
-}
-
-/// A number for every face: of its region's name in the order of the file, faces without one last.
-struct FaceRegions {
-  std::vector<std::string> names;
-  std::vector<std::uint32_t> of_part;
-};
-
-FaceRegions regions_of(const RenderMesh& surface, PartKind kind, const std::string& rest) {
-  FaceRegions regions;
-  std::map<std::string, std::uint32_t> known;
-  bool some_without = false;
-  for (const RenderMesh::Part& part : surface.parts) {
-    const std::string& name = name_of(part, kind);
-    if (name.empty()) {
-      some_without = true;
-    } else if (known.emplace(name, regions.names.size()).second) {
-      regions.names.push_back(name);
-    }
+/// Keeps regions that have tets: of thousands of loose leaves most have none.
+void drop_empty_regions(PartLabels& labels, std::vector<std::uint32_t>& tet_regions) {
+  std::vector<std::uint32_t> new_names(labels.names.size(), 0);
+  for (const std::uint32_t region : tet_regions) new_names[region] = 1;
+  std::vector<std::string> kept;
+  for (std::size_t r = 0; r < new_names.size(); ++r) {
+    if (new_names[r] == 0) continue;
+    new_names[r] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(labels.names[r]);
   }
-  const auto last = static_cast<std::uint32_t>(regions.names.size());
-  if (some_without || regions.names.empty()) regions.names.push_back(rest);
-  for (const RenderMesh::Part& part : surface.parts)
-    regions.of_part.push_back(name_of(part, kind).empty() ? last : known.at(name_of(part, kind)));
-  return regions;
-}
-
-/// A label for every triangle from one for every part.
-template <class Label>
-std::vector<std::uint32_t> triangle_labels(const RenderMesh& surface, const Label& label) {
-  std::vector<std::uint32_t> labels = triangle_faces(surface);
-  for (std::uint32_t& l : labels) l = label(surface.face_parts[l]);
-  return labels;
+  for (std::uint32_t& region : tet_regions) region = new_names[region];
+  labels.names = std::move(kept);
 }
 
 void set_regions(TetModel& model, const ModelOptions& options, const Material& material, const TriangleSoup& soup,
                  const Progress& progress) {
-  const FaceRegions regions = regions_of(model.render, *options.regions_by, model.name);
-  const auto labels = triangle_labels(model.render, [&](std::uint32_t part) { return regions.of_part[part]; });
-  model.tet_regions = label_tets(model.mesh, soup, labels, progress);
+  const bool by_parts = options.regions_by == RegionsBy::Part;
+  PartLabels labels = by_parts ? connected_parts(soup) : label_by(model.render, *options.regions_by, model.name);
+  model.tet_regions = label_tets(model.mesh, soup, labels.of_triangles, progress);
+  if (by_parts) drop_empty_regions(labels, model.tet_regions);
   model.regions.clear();
-  for (const std::string& name : regions.names) {
+  for (const std::string& name : labels.names) {
     Region region{name, material};
     for (const RegionWish& wish : options.materials) {
       if (wish.name != name) continue;
@@ -94,10 +53,7 @@ void set_regions(TetModel& model, const ModelOptions& options, const Material& m
 
 std::vector<std::uint32_t> vertices_near(const TetModel& model, const std::string& name, const TriangleSoup& soup,
                                          const Progress& progress) {
-  const auto labels = triangle_labels(model.render, [&](std::uint32_t p) -> std::uint32_t {
-    const RenderMesh::Part& part = model.render.parts[p];
-    return part.object == name || part.group == name || part.material == name ? 0 : 1;
-  });
+  const auto labels = find_part(model.render, name);
   const std::vector<std::uint32_t> nearest = label_vertices(model.mesh, soup, labels, progress);
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < nearest.size(); ++v)
@@ -114,17 +70,18 @@ bool wants_surface(const ModelOptions& options, bool format_holds_surface) {
 }
 
 void check_names(const ModelOptions& options, const RenderMesh& surface) {
-  if (!options.materials.empty() && !options.regions_by)
-    throw InvalidInput("--region: needs --regions object, group or material, which says what makes a region");
-  for (const RegionWish& wish : options.materials) {
-    const std::vector<PartName> names = part_names(surface);
-    if (std::none_of(names.begin(), names.end(),
-                     [&](const PartName& part) { return part.kind == *options.regions_by && part.name == wish.name; }))
-      throw InvalidInput(fmt::format("--region: the model has no {} '{}'{}", kind_name(*options.regions_by), wish.name,
-                                     known_names(surface)));
+  if (!options.materials.empty()) {
+    if (!options.regions_by)
+      throw InvalidInput("--region: needs --regions object, group, material or part, which says what makes a region");
+    const PartLabels labels = options.regions_by == RegionsBy::Part ? connected_parts(triangles_of(surface))
+                                                                    : label_by(surface, *options.regions_by, "");
+    for (const RegionWish& wish : options.materials)
+      if (std::find(labels.names.begin(), labels.names.end(), wish.name) == labels.names.end())
+        throw InvalidInput(fmt::format("--region: the model has no {} '{}'{}", word_of(*options.regions_by), wish.name,
+                                       known_names(surface)));
   }
   for (const PinWish& pin : options.pins)
-    if (!pin.choose && !has_part(surface, pin.name))
+    if (!pin.choose && find_part(surface, pin.name).empty())
       throw InvalidInput(fmt::format("--pin-part: the model has no part '{}'{}", pin.name, known_names(surface)));
 }
 
@@ -161,10 +118,12 @@ std::string describe_model(const TetModel& model) {
     std::vector<std::size_t> tets(model.regions.size(), 0);
     for (const std::uint32_t region : model.tet_regions) ++tets[region];
     text += "Regions:";
-    for (std::size_t r = 0; r < tets.size(); ++r)
+    constexpr std::size_t kMost = 12;
+    const std::size_t shown = std::min(tets.size(), kMost);
+    for (std::size_t r = 0; r < shown; ++r)
       text += fmt::format("{} {} ({})", r == 0 ? "" : ",", model.regions[r].name, counted(tets[r], "tet"));
-    text += ".\n";
-    if (tets.size() == 1) text += "Note: the model names nothing that makes regions; all tets are one.\n";
+    text += tets.size() > shown ? fmt::format(" and {} more.\n", grouped(tets.size() - shown)) : ".\n";
+    if (tets.size() == 1) text += "Note: nothing in the model tells regions apart that way; all tets are one.\n";
   }
   for (const VertexSet& pins : model.pins) {
     text += fmt::format("Pins '{}': {} held.\n", pins.name, counted(pins.vertices.size(), "vertex"));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh_run.h"
+#include "part_labels.h"
 #include "progress_bar.h"
 #include "tetsoup/io.h"
 #include "tetsoup/tet_model.h"
@@ -27,9 +28,9 @@ struct PinWish {
 };
 
 struct ModelOptions {
-  std::optional<UpAxis> up;            ///< Else by the input's format: y for OBJ and glTF, z for all others.
-  std::optional<std::string> embed;    ///< File for the embedding.
-  std::optional<PartKind> regions_by;  ///< Which names of the input make regions.
+  std::optional<UpAxis> up;          ///< Else by the input's format: y for OBJ and glTF, z for all others.
+  std::optional<std::string> embed;  ///< File for the embedding.
+  std::optional<RegionsBy> regions_by;
   std::vector<RegionWish> materials;
   std::vector<PinWish> pins;
 };

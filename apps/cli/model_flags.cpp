@@ -129,7 +129,8 @@ void add_pin_flags(CLI::App& app, ModelOptions& options) {
       [&options](const std::string& text) {
         options.pins.push_back({text, {}});
       },
-      "Hold the vertices nearest to an object, group or material of the\nmodel; `tetsoup inspect` lists their names");
+      "Hold the vertices nearest to an object, group, material or\nconnected part of the model; `tetsoup inspect` "
+      "lists them");
 }
 
 }  // namespace
@@ -140,15 +141,13 @@ void add_model_flags(CLI::App& app, ModelOptions& options) {
       "Where each vertex of the model lies in the tets, as .npz or\n.embedding, to move the model along")
       ->group(kGroup);
   add_flag(
-      app, "--regions", "object|group|material",
+      app, "--regions", "object|group|material|part",
       [&options](const std::string& text) {
-        if (text != "object" && text != "group" && text != "material")
-          throw InvalidInput("--regions " + text + ": must be object, group or material");
-        options.regions_by = text == "object"  ? PartKind::Object
-                             : text == "group" ? PartKind::Group
-                                               : PartKind::Material;
+        for (const RegionsBy by : {RegionsBy::Object, RegionsBy::Group, RegionsBy::Material, RegionsBy::Part})
+          if (text == word_of(by)) options.regions_by = by;
+        if (!options.regions_by) throw InvalidInput("--regions " + text + ": must be object, group, material or part");
       },
-      "Mark each tet with the nearest part of the model, by its names")
+      "Mark each tet with what is nearest of the model: by its names, or\nits connected parts, part_1 the largest")
       ->group(kGroup);
   add_list(
       app, "--region", "NAME=DENSITY,YOUNG,POISSON",
@@ -161,7 +160,8 @@ void add_model_flags(CLI::App& app, ModelOptions& options) {
         if (text != "x" && text != "y" && text != "z") throw InvalidInput("--up " + text + ": must be x, y or z");
         options.up = text == "x" ? UpAxis::X : text == "y" ? UpAxis::Y : UpAxis::Z;
       },
-      "Axis of the model that points up in scenes (y for .obj .gltf .glb,\nelse z)")
+      "Axis of the model that points up in scenes (y for .obj .gltf .glb,\nelse z) and in the preview (as the shape "
+      "stands)")
       ->group(kGroup);
 }
 

@@ -168,6 +168,15 @@ void note_size(const MeshRun& run, std::vector<std::string>& notes) {
                   size, run.material.metres_per_unit));
 }
 
+/// Its tree of nodes is made by joining neighbours until one is left.
+void note_pieces(const MeshRun& run, std::vector<std::string>& notes) {
+  if (run.engine != "bullet" || run.quality.components < 2) return;
+  notes.push_back(
+      fmt::format("PyBullet's loadSoftBody() never returns for a body of several pieces, here {}: join them "
+                  "(--rho-min 0.2, more tets) or drop the small ones (--min-part 0.05).",
+                  run.quality.components));
+}
+
 void note_faults(const Quality& quality, std::vector<std::string>& notes) {
   if (quality.inverted_tets + quality.invalid_tets > 0)
     notes.push_back(
@@ -262,6 +271,7 @@ std::string describe_run(const MeshRun& run) {
   note_lattice(run, notes);
   note_faults(run.quality, notes);
   note_size(run, notes);
+  note_pieces(run, notes);
   for (const std::string& note : notes) text += "Note: " + note + "\n";
   text += describe_model(run.model);
   text += describe_readiness(run.readiness, run.material);

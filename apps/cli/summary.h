@@ -36,6 +36,9 @@ std::string describe_run(const MeshRun& run);
 /// A table of the soup's numbers.
 std::string tabulate_soup(const std::string& name, const SoupReport& soup, const std::vector<PartName>& parts);
 
+/// The largest connected parts of a soup; nothing if it is of one.
+std::string tabulate_connected_parts(const TriangleSoup& soup);
+
 /// A table of a tet mesh's numbers, with a histogram of its dihedral angles.
 std::string tabulate_tets(const std::string& name, const Quality& quality);
 

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "angles.h"
+#include "part_labels.h"
 #include "report_json.h"
 #include "summary.h"
 
@@ -57,6 +59,38 @@ std::string named_parts(const std::vector<PartName>& parts) {
   return text;
 }
 
+std::string box_text(const Vec3d& lo, const Vec3d& hi) {
+  return fmt::format("box from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", lo.x, lo.y, lo.z, hi.x, hi.y,
+                     hi.z);
+}
+
+/// The triangles of a part and the box around them.
+struct PartSize {
+  std::size_t triangles = 0;
+  Vec3d lo{HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  void add(const Vec3& v) {
+    lo = {std::min(lo.x, double{v.x}), std::min(lo.y, double{v.y}), std::min(lo.z, double{v.z})};
+    hi = {std::max(hi.x, double{v.x}), std::max(hi.y, double{v.y}), std::max(hi.z, double{v.z})};
+  }
+};
+
+std::vector<PartSize> sizes_of(const PartLabels& parts, const TriangleSoup& soup) {
+  std::vector<PartSize> sizes(parts.names.size());
+  const auto is_point = [&](std::uint32_t v) {
+    if (v >= soup.vertices.size()) return false;
+    const Vec3& p = soup.vertices[v];
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  };
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const Triangle& triangle = soup.triangles[t];
+    if (!std::all_of(triangle.begin(), triangle.end(), is_point)) continue;
+    PartSize& size = sizes[parts.of_triangles[t]];
+    ++size.triangles;
+    for (const std::uint32_t v : triangle) size.add(soup.vertices[v]);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 std::string tabulate_soup(const std::string& name, const SoupReport& soup, const std::vector<PartName>& parts) {
@@ -77,10 +111,19 @@ std::string tabulate_soup(const std::string& name, const SoupReport& soup, const
           row("dropped: wild index", grouped(soup.index_out_of_range)) +
           row("dropped: duplicate", grouped(soup.duplicates));
   if (soup.kind == SoupClass::Empty) return text + "There is nothing to mesh in it.\n";
-  const Vec3d &lo = soup.box.lo, &hi = soup.box.hi;
-  text += fmt::format("  box from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n", lo.x, lo.y, lo.z, hi.x, hi.y,
-                      hi.z);
-  return text + named_parts(parts) + fmt::format("Mesh it with: tetsoup mesh {} -o out.msh\n", name);
+  return text + "  " + box_text(soup.box.lo, soup.box.hi) + "\n" + named_parts(parts);
+}
+
+std::string tabulate_connected_parts(const TriangleSoup& soup) {
+  constexpr std::size_t kMost = 12;
+  const PartLabels parts = connected_parts(soup);
+  if (parts.names.size() < 2) return {};
+  const std::vector<PartSize> sizes = sizes_of(parts, soup);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(sizes.size(), kMost); ++i)
+    text += row("triangles of " + parts.names[i], grouped(sizes[i].triangles), box_text(sizes[i].lo, sizes[i].hi));
+  if (sizes.size() > kMost) text += fmt::format("  and {} more\n", grouped(sizes.size() - kMost));
+  return text;
 }
 
 std::string tabulate_tets(const std::string& name, const Quality& q) {

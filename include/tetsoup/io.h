@@ -143,6 +143,7 @@ struct PreviewScene {
   const TetMesh* mesh = nullptr;         ///< Final.
   std::string title;                     ///< One line on top.
   std::array<std::string, 4> captions;   ///< One line under each panel.
+  std::optional<UpAxis> up = {};         ///< Y or Z where it is known; else the soup tells on which side it stands.
 };
 
 /// Draws the four panels with a software rasteriser into a PNG of the given width. Atomic. Same bytes for the same

@@ -31,6 +31,14 @@ std::vector<std::uint32_t> label_tets(const TetMesh& mesh, const TriangleSoup& s
 std::vector<std::uint32_t> label_vertices(const TetMesh& mesh, const TriangleSoup& soup,
                                           std::span<const std::uint32_t> labels, const Progress& progress = {});
 
+/// The connected part of every triangle of a soup, for models that name nothing: triangles that share a vertex, equal
+/// positions being one, are of one part.
+///
+/// @return  One for every triangle, from 0 in the order of their numbers of triangles, the largest first; of equally
+///          large ones that of the earlier triangle. 0 where a triangle is not usable.
+/// Cost: O(n) time and memory.
+std::vector<std::uint32_t> label_parts(const TriangleSoup& soup);
+
 /// Vertices in a box, its faces included.
 std::vector<std::uint32_t> vertices_in_box(const TetMesh& mesh, const Box3& box);
 

@@ -154,6 +154,10 @@ void bind_labels(nb::module_& m, const char* name, Function label) {
 void bind_regions(nb::module_& m) {
   bind_labels(m, "label_tets", &label_tets);
   bind_labels(m, "label_vertices", &label_vertices);
+  m.def("label_parts", [](PointsIn vertices, FacesIn faces) {
+    const TriangleSoup soup = copy_soup(vertices, faces);
+    return owned_list<std::int32_t>(call_unlocked([&] { return label_parts(soup); }));
+  });
   m.def("vertices_in_box", [](const TetMesh& mesh, const std::array<double, 3>& lo, const std::array<double, 3>& hi) {
     return owned_list<std::int32_t>(vertices_in_box(mesh, {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}));
   });

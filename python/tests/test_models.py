@@ -74,6 +74,23 @@ def test_regions_are_the_nearest_named_part(mesh, bars):
         mesh.regions(surface, progress=lambda *_: False)
 
 
+def test_regions_may_be_the_connected_parts():
+    points, faces = tetsoup.sample("sphere")
+    crumb = [[0.9, 0, 0], [0.9, 0.01, 0], [0.9, 0, 0.01]]
+    n = len(points)
+    last = [[2 * n, 2 * n + 1, 2 * n + 2]]
+    soup = tetsoup.Soup(np.vstack([points - [3, 0, 0], points, crumb]), np.vstack([faces, faces + n, last]))
+    mesh = tetsoup.tetrahedralize(soup, voxels=64, tets=300)
+    labels, names = mesh.regions(soup, by="part")
+    assert names[:2] == ["part_1", "part_2"] and labels.dtype == np.int32
+    centres = mesh.points[mesh.tets].mean(axis=1)[:, 0]
+    assert np.array_equal(labels == 0, centres < -1.5)
+    near = mesh.vertices_near(soup, "part_1")
+    assert np.array_equal(near, np.flatnonzero(mesh.points[:, 0] < -1.5))
+    with pytest.raises(tetsoup.InvalidInput, match="'part_1' to 'part_3'"):
+        mesh.vertices_near(soup, "part_4")
+
+
 def test_vertices_to_be_held_are_chosen_by_place_and_by_name(mesh, bars):
     x = mesh.points[:, 0]
     assert np.array_equal(mesh.vertices_below(1, (1, 0, 0)), np.flatnonzero(x <= 1))

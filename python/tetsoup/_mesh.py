@@ -211,11 +211,12 @@ class TetMesh:
         """The part of the surface that is nearest to each tet.
 
         Args:
-            surface: a `RenderMesh` or a file's name.
-            by: whose names make a region.
+            surface: a `RenderMesh`, a file's name, or whatever `tetrahedralize` takes as one object.
+            by: whose names make a region; "part": what is connected, for models that name nothing.
 
         Returns:
             `Regions`: labels (T,) int32 and names, in the order of the file; "" comes last and is what has no name.
+            Parts are "part_1", the one of most triangles, and so on; those without a tet are left out.
 
         Raises:
             tetsoup.InvalidInput: for another `by`.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from tetsoup._mesh import TetMesh
     from tetsoup._progress import Progress
 
-PartKind = Literal["object", "group", "material"]
+PartKind = Literal["object", "group", "material", "part"]
 Axis = Literal["x", "y", "z"]
 
 
@@ -120,9 +120,14 @@ def _below(values: npt.ArrayLike, name: str, count: int) -> npt.NDArray[np.uint3
 
 
 def regions(mesh: TetMesh, surface: Any, by: PartKind, progress: Progress | None) -> Regions:
-    if by not in Part._fields:
-        raise InvalidInput(f"by = {by!r}, must be one of 'object', 'group', 'material'")
+    if by not in (*Part._fields, "part"):
+        raise InvalidInput(f"by = {by!r}, must be one of 'object', 'group', 'material', 'part'")
     source = as_surface(surface)
+    if by == "part":
+        parts = np.asarray(_core.label_parts(*as_soup(source)), np.uint32)
+        of_tets = _core.label_tets(mesh._handle, *as_soup(source), parts, progress)
+        found, places = np.unique(of_tets, return_inverse=True)  # of thousands of loose leaves most have no tet
+        return Regions(places.astype(np.int32), [f"part_{part + 1}" for part in found])
     of_parts = [getattr(part, by) for part in source.parts] or [""]
     names = sorted(dict.fromkeys(of_parts), key=lambda name: not name)  # in the order of the file, the nameless last
     labels = _label_triangles(source, [names.index(name) for name in of_parts])
@@ -131,12 +136,26 @@ def regions(mesh: TetMesh, surface: Any, by: PartKind, progress: Progress | None
 
 def vertices_near(mesh: TetMesh, surface: Any, name: str, progress: Progress | None) -> npt.NDArray[np.int32]:
     source = as_surface(surface)
-    if not any(name in part for part in source.parts):
-        known = sorted({word for part in source.parts for word in part if word})
-        raise InvalidInput(f"name = {name!r}, must be of an object, a group or a material: {known}")
-    others = _label_triangles(source, [int(name not in part) for part in source.parts])
+    if any(name in part for part in source.parts):
+        others = _label_triangles(source, [int(name not in part) for part in source.parts])
+    else:
+        others = _other_parts(source, name)
     labels = _core.label_vertices(mesh._handle, *as_soup(source), others, progress)
     return np.flatnonzero(labels == 0).astype(np.int32)
+
+
+def _other_parts(source: RenderMesh, name: str) -> npt.NDArray[np.uint32]:
+    """0 for the triangles of a connected part, 1 for all others."""
+    parts = _core.label_parts(*as_soup(source))
+    count = int(parts.max(initial=-1)) + 1
+    names = [f"part_{part + 1}" for part in range(count)]
+    if name not in names:
+        known = sorted({word for part in source.parts for word in part if word})
+        raise InvalidInput(
+            f"name = {name!r}, must be of an object, a group or a material: {known}, or of a connected part: "
+            f"'part_1' to 'part_{count}'"
+        )
+    return np.asarray(parts != names.index(name), np.uint32)
 
 
 def _label_triangles(source: RenderMesh, of_parts: list[int]) -> npt.NDArray[np.uint32]:

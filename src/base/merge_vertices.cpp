@@ -1,9 +1,11 @@
 #include "base/merge_vertices.h"
 
+#include <algorithm>
 #include <bit>
 #include <tuple>
 
 #include "base/radix_sort.h"
+#include "base/vec.h"
 
 namespace tetsoup {
 namespace {
@@ -48,6 +50,11 @@ void sort_by_position(std::span<Entry> entries, std::span<Entry> scratch, const 
 }
 
 }  // namespace
+
+bool is_usable(const TriangleSoup& soup, const Triangle& triangle) {
+  return std::all_of(triangle.begin(), triangle.end(),
+                     [&](std::uint32_t v) { return v < soup.vertices.size() && is_finite(soup.vertices[v]); });
+}
 
 MergedVertices merge_vertices(const std::vector<Vec3>& vertices, std::vector<Triangle>& triangles) {
   std::vector<std::uint8_t> used(vertices.size());

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/merge_vertices.h"
 #include "base/morton.h"
 
 namespace tetsoup {
@@ -61,13 +62,9 @@ TriangleBoxes::TriangleBoxes(const TriangleSoup& soup, StageWatch& watch) : soup
 
 /// The box of the finite triangles, whose longest side becomes 1.
 void TriangleBoxes::find_box() {
-  const auto is_usable = [&](const Triangle& t) {
-    return std::all_of(t.begin(), t.end(),
-                       [&](std::uint32_t v) { return v < soup_.vertices.size() && is_finite(soup_.vertices[v]); });
-  };
   Vec3d hi;
   for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
-    if (!is_usable(soup_.triangles[t])) continue;
+    if (!is_usable(soup_, soup_.triangles[t])) continue;
     if (usable_.empty()) lo_ = hi = to_double(soup_.vertices[soup_.triangles[t][0]]);
     for (const std::uint32_t v : soup_.triangles[t]) {
       lo_ = min(lo_, to_double(soup_.vertices[v])), hi = max(hi, to_double(soup_.vertices[v]));

@@ -21,11 +21,6 @@ constexpr double kNear = 1;
 
 constexpr std::int64_t kGrain = 1024;  // tets or triangles
 
-bool is_usable(const TriangleSoup& soup, const Triangle& triangle) {
-  return std::all_of(triangle.begin(), triangle.end(),
-                     [&](std::uint32_t v) { return v < soup.vertices.size() && is_finite(soup.vertices[v]); });
-}
-
 std::vector<Triangle> usable_triangles(const TriangleSoup& soup) {
   std::vector<Triangle> triangles;
   std::copy_if(soup.triangles.begin(), soup.triangles.end(), std::back_inserter(triangles),

@@ -70,6 +70,7 @@ std::vector<float> flat(std::span<const Vec3> points) {
 
 /// Of one material that gives the mesh its mass; the first region's where it has no volume.
 double mean_density(const TetModel& model) {
+  if (!has_regions(model)) return in_mesh_units(model.regions[0].material).density;
   double mass = 0, volume = 0;
   for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
     const double v = signed_volume(corners_of(model.mesh, model.mesh.tets[t]));

@@ -46,8 +46,14 @@ std::vector<Vec3d> drawable_points(const PreviewScene& scene) {
   return points;
 }
 
+int up_axis_of(const PreviewScene& scene) {
+  if (scene.up == UpAxis::Y) return 1;
+  if (scene.up == UpAxis::Z || scene.soup == nullptr) return 2;
+  return guess_up_axis(*scene.soup);
+}
+
 std::vector<Panel> panels_of(const PreviewScene& scene, const Layout& layout) {
-  const int up_axis = scene.soup != nullptr ? guess_up_axis(*scene.soup) : 2;
+  const int up_axis = up_axis_of(scene);
   const auto view =
       std::make_shared<PreviewView>(drawable_points(scene), up_axis, layout.panel_width, layout.panel_height);
   std::vector<Panel> panels;

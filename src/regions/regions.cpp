@@ -1,16 +1,20 @@
 #include "tetsoup/regions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/merge_vertices.h"
 #include "base/require.h"
 #include "base/tet_geometry.h"
 #include "base/triangle_boxes.h"
+#include "base/unions.h"
 
 namespace tetsoup {
 namespace {
 
 constexpr std::int64_t kGrain = 64;  // points
+constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
 /// Labels of the triangles nearest to point(0), ..., point(count - 1).
 template <class Point>
@@ -38,6 +42,26 @@ std::vector<std::uint32_t> nearest_labels(std::size_t count, const Point& point,
   return result;
 }
 
+/// Of every set that triangles are of: how many have more triangles, or as many and an earlier one.
+std::vector<std::uint32_t> ranks_by_size(std::span<const Triangle> triangles, Unions& sets) {
+  struct Set {
+    std::size_t name = 0, size = 0;
+  };
+  std::vector<Set> order;  // By their first triangles.
+  std::vector<std::uint32_t> places(sets.size(), kNone);
+  for (const Triangle& t : triangles) {
+    std::uint32_t& place = places[sets.find(t[0])];
+    if (place == kNone) {
+      place = static_cast<std::uint32_t>(order.size());
+      order.push_back({sets.find(t[0]), 0});
+    }
+    ++order[place].size;
+  }
+  std::stable_sort(order.begin(), order.end(), [](const Set& a, const Set& b) { return a.size > b.size; });
+  for (std::uint32_t rank = 0; rank < order.size(); ++rank) places[order[rank].name] = rank;
+  return places;
+}
+
 template <class Holds>
 std::vector<std::uint32_t> vertices_where(const TetMesh& mesh, const Holds& holds) {
   std::vector<std::uint32_t> vertices;
@@ -61,6 +85,25 @@ std::vector<std::uint32_t> label_vertices(const TetMesh& mesh, const TriangleSou
                                           std::span<const std::uint32_t> labels, const Progress& progress) {
   const auto vertex = [&](std::size_t v) { return to_double(mesh.vertices[v]); };
   return nearest_labels(mesh.vertices.size(), vertex, soup, labels, progress);
+}
+
+std::vector<std::uint32_t> label_parts(const TriangleSoup& soup) {
+  std::vector<Triangle> triangles;
+  std::vector<std::size_t> places;  // In the soup.
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    if (!is_usable(soup, soup.triangles[t])) continue;
+    triangles.push_back(soup.triangles[t]);
+    places.push_back(t);
+  }
+  Unions parts(merge_vertices(soup.vertices, triangles).positions.size());
+  for (const Triangle& t : triangles) {
+    parts.join(t[0], t[1]);
+    parts.join(t[0], t[2]);
+  }
+  const std::vector<std::uint32_t> ranks = ranks_by_size(triangles, parts);
+  std::vector<std::uint32_t> labels(soup.triangles.size(), 0);
+  for (std::size_t i = 0; i < triangles.size(); ++i) labels[places[i]] = ranks[parts.find(triangles[i][0])];
+  return labels;
 }
 
 std::vector<std::uint32_t> vertices_in_box(const TetMesh& mesh, const Box3& box) {

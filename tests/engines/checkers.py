@@ -1,6 +1,6 @@
 """What readers that cannot be installed here ask of a file, from their published sources and manuals (docs/FORMATS.md
 names them). Each returns points and tets as that reader would see them, or fails."""
-import ast
+import importlib.util
 import json
 
 import numpy
@@ -64,14 +64,74 @@ def read_dart(written):
     return read_msh22(written.path(".msh"))[1:]
 
 
+# Components of SOFA 24.06 that a scene may use: the plugin that has each, and the data that it takes.
+SOFA_COMPONENTS = {
+    "RequiredPlugin": ("", "pluginName"),
+    "DefaultAnimationLoop": ("", ""),
+    "EulerImplicitSolver": ("Sofa.Component.ODESolver.Backward", "rayleighStiffness rayleighMass"),
+    "SparseLDLSolver": ("Sofa.Component.LinearSolver.Direct", "template"),
+    "MeshGmshLoader": ("Sofa.Component.IO.Mesh", "name filename rotation translation"),
+    "MeshOBJLoader": ("Sofa.Component.IO.Mesh", "name filename rotation translation"),
+    "TetrahedronSetTopologyContainer": ("Sofa.Component.Topology.Container.Dynamic", "src"),
+    "TetrahedronSetGeometryAlgorithms": ("Sofa.Component.Topology.Container.Dynamic", "template"),
+    "MechanicalObject": ("Sofa.Component.StateContainer", "template"),
+    "MeshMatrixMass": ("Sofa.Component.Mass", "totalMass lumping"),
+    "TetrahedronFEMForceField": ("Sofa.Component.SolidMechanics.FEM.Elastic", "method youngModulus poissonRatio"),
+    "PlaneForceField": ("Sofa.Component.MechanicalLoad", "normal d stiffness damping bilateral"),
+    "FixedProjectiveConstraint": ("Sofa.Component.Constraint.Projective", "indices"),
+    "OglModel": ("Sofa.GL.Component.Rendering3D", "src"),
+    "BarycentricMapping": ("Sofa.Component.Mapping.Linear", ""),
+    "IdentityMapping": ("Sofa.Component.Mapping.Linear", "")}
+
+
+class SofaNode:
+    """What runSofa hands to createScene(), keeping what is made of it: objects are (component, data) in their order."""
+
+    def __init__(self):
+        self.objects, self.children = [], {}
+
+    def addObject(self, component, **data):
+        self.objects.append((component, data))
+
+    def addChild(self, name):
+        return self.children.setdefault(name, SofaNode())
+
+    def everything(self):
+        return self.objects + [one for child in self.children.values() for one in child.everything()]
+
+
+def sofa_scene(written):
+    """The root that the scene makes: components that exist, with data that they have, of plugins that are asked for."""
+    spec = importlib.util.spec_from_file_location("scene", written.path("_sofa.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    root = SofaNode()
+    module.createScene(root)
+    asked = root.objects[0][1]["pluginName"]
+    for component, data in root.everything():
+        plugin, known = SOFA_COMPONENTS[component]
+        assert not plugin or plugin in asked, component
+        assert set(data) <= set(known.split()), component
+    return root
+
+
 def read_sofa(written):
-    """MeshGmshLoader: ASCII, $Elements right behind $EndNodes, tets only; its scene names components that exist."""
+    """MeshGmshLoader: ASCII, $Elements right behind $EndNodes, tets only. In the scene every force has a state before
+    it, every state a topology, and what is given per tet or vertex fits their numbers."""
     lines, points, cells = read_msh22(written.path(".msh"))
     assert lines[lines.index("$EndNodes") + 1] == "$Elements"
-    scene = written.path("_sofa.py").read_text()
-    tree = ast.parse(scene)
-    assert any(isinstance(node, ast.FunctionDef) and node.name == "createScene" for node in tree.body)
-    assert written.path(".msh").name in scene
+    (body,) = sofa_scene(written).children.values()
+    order = [component for component, _ in body.objects]
+    needs = ["MeshGmshLoader", "TetrahedronSetTopologyContainer", "MechanicalObject", "MeshMatrixMass",
+             "TetrahedronFEMForceField", "PlaneForceField"]
+    assert sorted(needs, key=order.index) == needs
+    data = dict(body.objects)
+    assert data["MeshGmshLoader"]["filename"] == str(written.path(".msh"))
+    assert len(data["TetrahedronFEMForceField"]["youngModulus"]) in (1, len(cells))
+    assert 0 <= data["TetrahedronFEMForceField"]["poissonRatio"] < 0.5
+    held = data.get("FixedProjectiveConstraint", {}).get("indices", [])
+    assert all(0 <= vertex < len(points) for vertex in held)
+    assert len(held) == sum(pin["vertex_count"] for pin in written.report["pins"])
     return points, cells
 
 

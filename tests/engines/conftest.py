@@ -15,7 +15,8 @@ RESULTS = pathlib.Path(os.environ.get("TETSOUP_ENGINE_RESULTS", ROOT / "build/en
 
 @pytest.fixture(scope="session")
 def write(tmp_path_factory):
-    """write(engine, body, tets): the files that the tool writes, once a process."""
+    """write(engine, body, tets, option...): the files that the tool writes, once a process. With `by="--format"` it is
+    a format instead of an engine, and `ending` the file's."""
     folder, made = tmp_path_factory.mktemp("written"), {}
 
     def source_of(body):
@@ -29,16 +30,16 @@ def write(tmp_path_factory):
             pytest.skip(f"the model {body.file} is not here")
         return path
 
-    def write_once(engine, name, tets=500):
-        key = engine, name, tets
+    def write_once(engine, name, tets=500, *options, by="--for", ending=""):
+        key = engine, name, tets, options, ending
         if key not in made:
             body = BODIES[name]
-            target = folder / engine / f"{name}_{tets}"
-            target.parent.mkdir(exist_ok=True)
-            report = target.parent / f"{name}_{tets}.report"
+            target = folder / str(len(made)) / f"{name}_{tets}{ending}"
+            target.parent.mkdir()
+            report = target.parent / "report"
             subprocess.run(
-                [TOOL, "mesh", source_of(body), "-o", target, "--for", engine, "--tets", str(tets), "--up", body.up,
-                 "--metres-per-unit", str(body.metres_per_unit), "--json", report, "--quiet"], check=True)
+                [TOOL, "mesh", source_of(body), "-o", target, by, engine, "--tets", str(tets), "--up", body.up,
+                 "--metres-per-unit", str(body.metres_per_unit), "--json", report, "--quiet", *options], check=True)
             made[key] = Written(body, tets, json.loads(report.read_text()), target.parent, source_of(body))
         return made[key]
 

@@ -12,9 +12,9 @@ from bodies import BODIES, SIZES
 from drops import ENDINGS, SHORTCOMINGS
 
 PACKAGES = {
-    "abaqus": "meshio", "blender": "trimesh", "bullet": "pybullet", "drake": "drake", "genesis": "meshio", "gmsh": "gmsh",
-    "isaac": "usd-core", "mmg": "meshio", "mujoco": "mujoco", "netgen": "netgen-mesher", "newton": "newton", "paraview": "pyvista",
-    "tetgen": "meshio", "usd": "usd-core"}
+    "abaqus": "meshio", "blender": "trimesh", "bullet": "pybullet", "drake": "drake", "genesis": "meshio",
+    "gmsh": "gmsh", "isaac": "usd-core", "mmg": "meshio", "mujoco": "mujoco", "netgen": "netgen-mesher",
+    "newton": "newton", "paraview": "pyvista", "tetgen": "meshio", "usd": "usd-core"}
 BEGIN, END = "<!-- table: written by scripts/test_engines --docs -->", "<!-- end of table -->"
 
 
@@ -31,8 +31,9 @@ def table(rows):
     for row in rows:
         proven[row["engine"]][row["what"]][row["body"], row["tets"]] = row
     total = len(BODIES) * len(SIZES)
-    text = ["| `--for` | read by | counts and volume | a second's fall ends near rest | seconds simulated a second, 500 / 2,000 tets |",
-            "|---|---|---|---|---|"]
+    columns = ["`--for`", "read by", "counts and volume", "a second's fall ends near rest",
+               "seconds simulated a processor's second, 500 / 2,000 tets"]
+    text = [f"| {' | '.join(columns)} |", "|---" * len(columns) + "|"]
     for engine in sorted(proven):
         kept = proven[engine]
         loaded, rest = len(kept["load"]), len(kept["rest"])
@@ -45,7 +46,8 @@ def table(rows):
                 rates.append(f"{1 / seconds[len(seconds) // 2]:.2g}" if seconds else "–")
             speed = " / ".join(rates)
         text.append(f"| `{engine}` | {version_of(engine)} | {loaded} of {total} | {fall} | {speed} |")
-    text += ["", f"{datetime.date.today():%d %B %Y}; bodies: {', '.join(BODIES)}, each of {SIZES[0]} and {SIZES[1]:,} tets. Not taken:", ""]
+    text += ["", f"{datetime.date.today():%d %B %Y}; bodies: {', '.join(BODIES)}, each of {SIZES[0]} and "
+             f"{SIZES[1]:,} tets. Not taken:", ""]
     for (engine, body, tets), reason in SHORTCOMINGS.items():
         text.append(f"- `{engine}`, {body} of {tets:,} tets: {reason}.")
     return "\n".join(text)

@@ -35,7 +35,8 @@ def beam(tmp_path_factory):
 
     def mesh(lattice, tets):
         path = folder / f"{lattice}_{tets}.vtk"
-        subprocess.run([TOOL, "mesh", soup, "-o", path, "--lattice", lattice, "--tets", str(tets), "--quiet"], check=True)
+        options = ["--lattice", lattice, "--tets", str(tets), "--quiet"]
+        subprocess.run([TOOL, "mesh", soup, "-o", path, *options], check=True)
         data = meshio.read(path)
         return MeshTet(data.points.T.copy(), data.cells_dict["tetra"].T.copy().astype(numpy.int64))
 
@@ -68,8 +69,8 @@ def test_a_linear_displacement_of_the_boundary_is_linear_within_a_body(body, tet
 
 
 def deflection(mesh, element):
-    """Of the free end under the beam's own weight, over beam theory's with bending and shear. Smoothing rounds the edges
-    of a box, so the section is taken as the mesh has it, in the mean."""
+    """Of the free end under the beam's own weight, over beam theory's with bending and shear. Smoothing rounds the
+    edges of a box, so the section is taken as the mesh has it, in the mean."""
     basis = Basis(mesh, ElementVector(element))
     sections = Basis(mesh, element)
     low, high = mesh.p[0].min(), mesh.p[0].max()
@@ -97,8 +98,8 @@ def facets_on(mesh, triangles):
 
 
 def work_of(mesh, element, held):
-    """What the beam's weight does while it sags, held at the same triangles however fine the mesh is. Of all measures of
-    the deflection this is the one that grows with every refinement, whatever the shape (Galerkin orthogonality)."""
+    """What the beam's weight does while it sags, held at the same triangles however fine the mesh is. Of all measures
+    of the deflection this is the one that grows with every refinement, whatever the shape (Galerkin orthogonality)."""
     basis = Basis(mesh, ElementVector(element))
     load = LinearForm(lambda v, _: -v[2]).assemble(basis)
     return load @ solve(*condense(stiffness.assemble(basis), load, D=basis.get_dofs(facets_on(mesh, held))))

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <span>
 
-#include "base/unions.h"
 #include "io/engines/scene_parts.h"
 #include "io/line_writer.h"
 #include "io/model_parts.h"
@@ -41,9 +40,7 @@ double height_of(const Vec3& v, UpAxis up) {
 // Every piece needs something to stand on, or nothing determines where it is.
 std::vector<std::uint32_t> held_vertices(const TetModel& model) {
   const std::vector<Vec3>& vertices = model.mesh.vertices;
-  Unions pieces(vertices.size());
-  for (const Tet& t : model.mesh.tets)
-    for (std::size_t i = 1; i < 4; ++i) pieces.join(t[0], t[i]);
+  Unions pieces = pieces_of(model.mesh);
   std::vector<std::uint32_t> held = pinned_vertices(model);
   std::vector<bool> is_held(vertices.size());
   for (const std::uint32_t v : held) is_held[pieces.find(v)] = true;

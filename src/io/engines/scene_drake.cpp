@@ -47,42 +47,42 @@ def simulate(seconds=1.0, view=False):
     material.set_stiffness_damping_coefficient(0.02)  # s
     bodies = plant.mutable_deformable_model()
     body = bodies.RegisterDeformableBody(geometry, material, 1.0)
+    rest = bodies.GetReferencePositions(body).reshape(-1, 3)
+    for vertex in HELD:  # whatever of the body lies in a tiny ball is fixed to the world
+        bodies.AddFixedConstraint(
+            body, plant.world_body(), pose, drake.Sphere(1e-5 * HEIGHT), drake.RigidTransform(rest[vertex]))
     plant.Finalize()
     if view:
-        drake.AddDefaultVisualization(builder, drake.StartMeshcat())
+        meshcat = drake.StartMeshcat()  # prints the address to open in a browser
+        meshcat.AddButton("Stop", "Escape")
+        drake.AddDefaultVisualization(builder, meshcat)
     diagram = builder.Build()
     simulator = drake.Simulator(diagram)
     context = plant.GetMyContextFromRoot(simulator.get_context())
     start = bodies.GetPositions(context, body).T.copy()
-    if view:
-        simulator.set_target_realtime_rate(1.0)
-        seconds = 60.0
+    simulator.set_target_realtime_rate(1.0 if view else 0.0)
     simulator.AdvanceTo(seconds)
+    while view and meshcat.GetButtonClicks("Stop") == 0:
+        simulator.AdvanceTo(context.get_time() + STEP)
     return start, bodies.GetPositions(context, body).T, bodies.GetVelocities(context, body).T
-
-
-if __name__ == "__main__":
-    _, ends, velocities = simulate(view="--view" in sys.argv)
-    speed = numpy.sqrt((velocities**2).sum(axis=1).mean())
-    print(f"after one second: lowest point {ends[:, 2].min():.4f} m, speed {speed:.4f} m/s")
 )";
 
 }  // namespace
 
 std::string drake_scene(const SceneInput& input) {
   const Drop drop = plan_drop(input, kLimit);
-  return filled(kScene, {{"name", drop.name},
-                         {"file", quoted_python(input.mesh_file)},
-                         {"height", brief(drop.height)},
-                         {"young", brief(drop.young)},
-                         {"why", drop.stiffness_why},
-                         {"poisson", brief(drop.poisson)},
-                         {"density", brief(drop.density)},
-                         {"pins", pin_list(input.model, 0, ", ")},
-                         {"x", brief(drop.x)},
-                         {"y", brief(drop.y)},
-                         {"lift", brief(drop.lift)},
-                         {"quat", upright_wxyz(input.model.up, ", ")}});
+  return filled_script(kScene, {{"name", drop.name},
+                                {"file", quoted_python(input.mesh_file)},
+                                {"height", brief(drop.height)},
+                                {"young", brief(drop.young)},
+                                {"why", drop.stiffness_why},
+                                {"poisson", brief(drop.poisson)},
+                                {"density", brief(drop.density)},
+                                {"pins", pin_list(input.model, 0, ", ")},
+                                {"x", brief(drop.x)},
+                                {"y", brief(drop.y)},
+                                {"lift", brief(drop.lift)},
+                                {"quat", upright_wxyz(input.model.up, ", ")}});
 }
 
 }  // namespace tetsoup

@@ -65,29 +65,23 @@ def simulate(seconds=1.0, view=False):
             viewer.log_state(state)
             viewer.end_frame()
     return start, state.particle_q.numpy(), state.particle_qd.numpy()
-
-
-if __name__ == "__main__":
-    _, ends, velocities = simulate(view="--view" in sys.argv)
-    speed = numpy.sqrt((velocities**2).sum(axis=1).mean())
-    print(f"after one second: lowest point {ends[:, 2].min():.4f} m, speed {speed:.4f} m/s")
 )";
 
 }  // namespace
 
 std::string newton_scene(const SceneInput& input) {
   const Drop drop = plan_drop(input, kLimit);
-  return filled(kScene, {{"name", drop.name},
-                         {"file", quoted_python(input.mesh_file)},
-                         {"height", brief(drop.height)},
-                         {"young", brief(drop.young)},
-                         {"why", drop.stiffness_why},
-                         {"stiffening", brief(drop.stiffening)},
-                         {"contact", brief(drop.young * drop.edge)},
-                         {"x", brief(drop.x)},
-                         {"y", brief(drop.y)},
-                         {"lift", brief(drop.lift)},
-                         {"quat", upright_xyzw(input.model.up, ", ")}});
+  return filled_script(kScene, {{"name", drop.name},
+                                {"file", quoted_python(input.mesh_file)},
+                                {"height", brief(drop.height)},
+                                {"young", brief(drop.young)},
+                                {"why", drop.stiffness_why},
+                                {"stiffening", brief(drop.stiffening)},
+                                {"contact", brief(drop.young * drop.edge)},
+                                {"x", brief(drop.x)},
+                                {"y", brief(drop.y)},
+                                {"lift", brief(drop.lift)},
+                                {"quat", upright_xyzw(input.model.up, ", ")}});
 }
 
 }  // namespace tetsoup

@@ -24,6 +24,14 @@ constexpr double kStiffness = 100;
 constexpr double kDropShare = 0.05;  // Of the height, between body and plane,
 constexpr double kMostDrop = 0.5;    // and at most so many metres, which take a third of a second.
 
+constexpr std::string_view kScriptEnd = R"(
+
+if __name__ == "__main__":
+    _, ends, velocities = simulate(view="--view" in sys.argv)
+    speed = numpy.sqrt((velocities**2).sum(axis=1).mean())
+    print(f"at the end: lowest point {ends[:, 2].min():.4f} m, speed {speed:.4f} m/s")
+)";
+
 struct Extent {
   std::array<double, 3> low, high;
 };
@@ -149,6 +157,10 @@ std::string filled(std::string_view text, std::initializer_list<std::pair<std::s
   }
 }
 
+std::string filled_script(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> gaps) {
+  return filled(std::string(text) + std::string(kScriptEnd), gaps);
+}
+
 std::string brief(double value) {
   constexpr int kDigits = 4;
   char digits[32];
@@ -180,6 +192,13 @@ std::string escaped_xml(std::string_view text) {
       result += c;
   }
   return result;
+}
+
+Unions pieces_of(const TetMesh& mesh) {
+  Unions pieces(mesh.vertices.size());
+  for (const Tet& t : mesh.tets)
+    for (std::size_t i = 1; i < 4; ++i) pieces.join(t[0], t[i]);
+  return pieces;
 }
 
 std::string pin_list(const TetModel& model, std::uint32_t base, std::string_view between) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/unions.h"
 #include "io/engines/scenes.h"
 
 namespace tetsoup {
@@ -48,10 +49,15 @@ std::string upright_xyzw(UpAxis up, std::string_view between);
 /// The text with every "@name@" replaced by what stands beside it.
 std::string filled(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> gaps);
 
+/// The same of a Python script that has a function simulate(), with the lines that call it at its end.
+std::string filled_script(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> gaps);
+
 /// Four digits, which is what scenes show.
 std::string brief(double value);
 std::string quoted_python(std::string_view text);
 std::string escaped_xml(std::string_view text);
+/// Vertices that tets join are of one set.
+Unions pieces_of(const TetMesh& mesh);
 /// Pinned vertices in lines of sixteen.
 std::string pin_list(const TetModel& model, std::uint32_t base, std::string_view between);
 
