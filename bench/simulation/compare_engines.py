@@ -166,6 +166,6 @@ def table(rows):
             cells += [brief(row["factor"]), brief(row["ns"]), number(row["softness"], "{:.2f}"),
                       f"{100 * (row['energy'] - 1):+.1f} %", f"{100 * row['swelling']:.1f} %", verdict, ratio]
         else:
-            cells += ["–", "–", number(row.get("softness"), "{:.2f}"), "–", "–", f"not stable: {row['why']}", ""]
+            cells += ["–", "–", "–", "–", "–", f"not stable: {row['why']}", ""]
         lines.append(cells)
     return header, lines

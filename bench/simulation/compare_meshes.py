@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import scenes
+from compare_engines import brief
 
 PACKAGES = ["tetsoup", "pytetwild", "tetgen", "gmsh", "pymeshfix", "scipy"]
 QUICK_OBJECTS = ["robot"]
@@ -69,7 +70,7 @@ def table(rows):
         implicit, potentials = row["implicit"], row["potentials"]
         lines.append([
             *cells, f"{row['tets']:,}", f"{row['angle']:.1f}", f"{row['meshing']['seconds']:.2g}", f"{1e6 * row['step']:.3g}",
-            f"{row['tets'] / row['step'] / 1e6:.3g}", f"{1 / 60 / implicit['step']:.0f}", f"{implicit['per_second']:.3g}",
+            brief(row["tets"] / row["step"] / 1e6), f"{1 / 60 / implicit['step']:.0f}", f"{implicit['per_second']:.3g}",
             "yes" if implicit["stable"] else implicit["why"], f"{1e6 * potentials['step']:.3g}",
-            f"{potentials['per_second']:.3g}"])
+            brief(potentials["per_second"])])
     return header, lines
