@@ -55,6 +55,20 @@ TEST(Simulate, FreeFallIsExact) {
   }
 }
 
+TEST(Simulate, SpansStayWhereTheyAreForAsLongAsTheSimulation) {
+  Simulation simulation;
+  const std::size_t body = simulation.add_body(block());
+  const std::span<const Vec3> positions = simulation.positions(body), velocities = simulation.velocities(body);
+  const std::vector<std::byte> state = simulation.save_state();
+  simulation.step(kFrame);
+  simulation.restore_state(state);
+  for (int i = 1; i < 100; ++i) simulation.add_body(block(), {}, {.translate = {1.0 * i, 0, 0}});
+  simulation.step(kFrame);
+  const Simulation moved = std::move(simulation);
+  EXPECT_EQ(positions.data(), moved.positions(body).data());
+  EXPECT_EQ(velocities.data(), moved.velocities(body).data());
+}
+
 TEST(Simulate, MomentaStayWithinRoundingOverTenThousandSubsteps) {
   for (const Solver solver : {Solver::Implicit, Solver::Potentials}) {
     SimulationOptions options = in_space(solver);

@@ -155,7 +155,7 @@ class Simulation {
 
   std::size_t body_count() const;
   double time() const;
-  /// Of the body's vertices, in the order of its mesh; the span holds until a body is added.
+  /// Of the body's vertices, in the order of its mesh; the span holds as long as the simulation, and shows every step.
   std::span<const Vec3> positions(std::size_t body) const;
   std::span<const Vec3> velocities(std::size_t body) const;
   /// @throws InvalidInput  if there are not as many as vertices, or one is not finite or too far out.

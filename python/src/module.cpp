@@ -54,9 +54,10 @@ NB_MODULE(_core, m) {
   bind_pipeline(m);
   bind_surfaces(m);
   bind_models(m);
+  bind_simulation(m);
   bind_files(m);
   bind_samples(m);
-  m.def("default_options", [](const std::string& stage) { return describe_options({}, stage); });
+  m.def("default_options", [](const std::string& group) { return default_options(group); });
   m.def("set_thread_count", &tetsoup::set_thread_count);
   m.def("thread_count", &tetsoup::thread_count);
 }

@@ -1,139 +1,21 @@
 #include "options.h"
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <type_traits>
-#include <vector>
-
-#include "tetsoup/error.h"
-#include "words.h"
+#include "keywords.h"
 
 namespace tetsoup::python {
 
 namespace {
 
-// --- Values from Python: false where one does not fit
-// -----------------------------------------------------------------
-
-template <class T>
-requires std::is_arithmetic_v<T>
-bool read(nb::handle value, T& number) {
-  return !PyBool_Check(value.ptr()) && nb::try_cast(value, number);
-}
-
-template <class E>
-requires std::is_enum_v<E>
-bool read(nb::handle value, E& choice) {
-  if (!PyUnicode_Check(value.ptr())) return false;
-  const std::string_view given = nb::cast<nb::str>(value).c_str();
-  for (const auto& [word, named] : kWords<E>) {
-    if (given != word) continue;
-    choice = named;
-    return true;
-  }
-  return false;
-}
-
-bool read(nb::handle value, Vec3d& v);  // an item of the next, and made of items
-
-template <std::size_t N, class T>
-bool read_items(nb::handle value, std::array<T*, N> items) {
-  // Anything that iterates, but text: lists, tuples, arrays.
-  if (PyUnicode_Check(value.ptr()) || !PySequence_Check(value.ptr())) return false;
-  if (nb::len(value) != N) return false;
-  for (std::size_t i = 0; i < N; ++i) {
-    const nb::object item = value[i];
-    if (!read(item, *items[i])) return false;
-  }
-  return true;
-}
-
-bool read(nb::handle value, Vec3d& v) {
-  return read_items(value, std::array{&v.x, &v.y, &v.z});
-}
-bool read(nb::handle value, Box3& box) {
-  return read_items(value, std::array{&box.lo, &box.hi});
-}
-
-template <class T>
-bool read(nb::handle value, std::optional<T>& maybe) {
-  maybe.reset();
-  return value.is_none() || read(value, maybe.emplace());
-}
-
-// --- What would have fitted, for messages
-// -----------------------------------------------------------------------------
-
-template <class T>
-struct Expected {
-  static std::string text() {
-    if constexpr (std::is_enum_v<T>) {
-      std::string words;
-      for (const auto& [word, named] : kWords<T>) words += std::string(words.empty() ? "'" : "', '") + word;
-      return "one of " + words + "'";
-    } else if constexpr (std::is_floating_point_v<T>) {
-      return "a number";
-    } else {
-      return std::is_signed_v<T> ? "a whole number" : "a whole number of at least 0";
-    }
-  }
-};
-template <>
-struct Expected<Vec3d> {
-  static std::string text() { return "three numbers"; }
-};
-template <>
-struct Expected<Box3> {
-  static std::string text() { return "two corners of three numbers each"; }
-};
-template <class T>
-struct Expected<std::optional<T>> {
-  static std::string text() { return Expected<T>::text() + ", or None"; }
-};
-
-// --- Values to Python
-// -------------------------------------------------------------------------------------------------
-
-template <class T>
-nb::object show(const T& value) {
-  if constexpr (std::is_enum_v<T>)
-    return nb::str(word_of(value));
-  else
-    return nb::cast(value);
-}
-nb::object show(const Vec3d& v) {
-  return nb::make_tuple(v.x, v.y, v.z);
-}
-nb::object show(const Box3& box) {
-  return nb::make_tuple(show(box.lo), show(box.hi));
-}
-template <class T>
-nb::object show(const std::optional<T>& maybe) {
-  return maybe ? show(*maybe) : nb::none();
-}
-
-// --- The table
-// --------------------------------------------------------------------------------------------------------
+using MeshKeyword = Keyword<MeshOptions>;
 
 struct Option {
   std::string_view stage;
-  const char* keyword;
-  void (*set)(MeshOptions& options, const char* keyword, nb::handle value);
-  nb::object (*get)(const MeshOptions& options);
+  MeshKeyword keyword;
 };
 
-/// An option that lies in MeshOptions where the pointers to members lead.
 template <auto... Path>
-Option option(std::string_view stage, const char* keyword) {
-  return {stage, keyword,
-          [](MeshOptions& options, const char* name, nb::handle value) {
-            auto& member = (options.*....*Path);
-            if (!read(value, member))
-              throw InvalidInput(std::string(name) + " = " + nb::repr(value).c_str() + ", must be " +
-                                 Expected<std::remove_reference_t<decltype(member)>>::text());
-          },
-          [](const MeshOptions& options) { return show((options.*....*Path)); }};
+Option option(std::string_view stage, const char* name) {
+  return {stage, keyword<MeshOptions, Path...>(name)};
 }
 
 /// One line an option. Its type and what it means stand in python/tetsoup/options.py.
@@ -184,30 +66,78 @@ const std::vector<Option>& all_options() {
   return options;
 }
 
-bool belongs(const Option& option, std::string_view stage) {
-  return stage.empty() || option.stage == stage;
+std::vector<MeshKeyword> keywords_of(std::string_view stage) {
+  std::vector<MeshKeyword> keywords;
+  for (const Option& option : all_options())
+    if (stage.empty() || option.stage == stage) keywords.push_back(option.keyword);
+  return keywords;
+}
+
+const std::vector<Keyword<SimulationOptions>>& simulation_keywords() {
+  using S = SimulationOptions;
+  static const std::vector<Keyword<S>> keywords{
+      keyword<S, &S::solver>("solver"),
+      keyword<S, &S::gravity>("gravity"),
+      keyword<S, &S::substeps>("substeps"),
+      keyword<S, &S::max_substeps>("max_substeps"),
+      keyword<S, &S::contact_interval>("contact_interval"),
+      keyword<S, &S::contacts>("contacts"),
+      keyword<S, &S::potentials, &PotentialOptions::distance>("distance_stiffness"),
+      keyword<S, &S::potentials, &PotentialOptions::area>("area_stiffness"),
+      keyword<S, &S::potentials, &PotentialOptions::volume>("volume_stiffness"),
+  };
+  return keywords;
+}
+
+const std::vector<Keyword<SimMaterial>>& material_keywords() {
+  using M = SimMaterial;
+  static const std::vector<Keyword<M>> keywords{
+      keyword<M, &M::elastic, &Material::density>("density"),
+      keyword<M, &M::elastic, &Material::young>("young"),
+      keyword<M, &M::elastic, &Material::poisson>("poisson"),
+      keyword<M, &M::damping_time>("damping_time"),
+      keyword<M, &M::friction>("friction"),
+      keyword<M, &M::elastic, &Material::metres_per_unit>("metres_per_unit"),
+  };
+  return keywords;
+}
+
+const std::vector<Keyword<Pose>>& pose_keywords() {
+  static const std::vector<Keyword<Pose>> keywords{
+      keyword<Pose, &Pose::translate>("translate"), keyword<Pose, &Pose::rotate>("rotate"),
+      keyword<Pose, &Pose::scale>("scale"),         keyword<Pose, &Pose::velocity>("velocity"),
+      keyword<Pose, &Pose::spin>("spin"),
+  };
+  return keywords;
 }
 
 }  // namespace
 
 MeshOptions read_options(nb::dict keywords, std::string_view stage) {
-  MeshOptions options;
-  for (const auto& [key, value] : keywords) {
-    const std::string keyword = nb::cast<nb::str>(key).c_str();
-    const Option* found = nullptr;
-    for (const Option& option : all_options())
-      if (keyword == option.keyword && belongs(option, stage)) found = &option;
-    if (found == nullptr) throw nb::type_error(("there is no option '" + keyword + "' here").c_str());
-    found->set(options, found->keyword, value);
-  }
-  return options;
+  return from_keywords(keywords_of(stage), keywords);
+}
+
+SimulationOptions read_simulation_options(nb::dict keywords) {
+  return from_keywords(simulation_keywords(), keywords);
+}
+
+SimMaterial read_material(nb::dict keywords) {
+  return from_keywords(material_keywords(), keywords);
+}
+
+Pose read_pose(nb::dict keywords) {
+  return from_keywords(pose_keywords(), keywords);
 }
 
 nb::typed<nb::dict, nb::str, nb::any> describe_options(const MeshOptions& options, std::string_view stage) {
-  nb::typed<nb::dict, nb::str, nb::any> values;
-  for (const Option& option : all_options())
-    if (belongs(option, stage)) values[option.keyword] = option.get(options);
-  return values;
+  return to_keywords(keywords_of(stage), options);
+}
+
+nb::typed<nb::dict, nb::str, nb::any> default_options(std::string_view group) {
+  if (group == "simulation") return to_keywords(simulation_keywords(), {});
+  if (group == "material") return to_keywords(material_keywords(), {});
+  if (group == "pose") return to_keywords(pose_keywords(), {});
+  return describe_options({}, group);
 }
 
 }  // namespace tetsoup::python

@@ -1,4 +1,4 @@
-// Keywords of the Python functions and the members of MeshOptions that they set.
+// Keywords of the Python functions and the members of the library's options that they set.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tetsoup/pipeline.h"
+#include "tetsoup/simulate.h"
 
 namespace tetsoup::python {
 
@@ -16,7 +17,15 @@ namespace nb = nanobind;
 /// @throws InvalidInput  for a value of the wrong type or an unknown word; nb::type_error for an unknown keyword.
 MeshOptions read_options(nb::dict keywords, std::string_view stage = {});
 
+/// The same for what a simulation takes; angles are radians.
+SimulationOptions read_simulation_options(nb::dict keywords);
+SimMaterial read_material(nb::dict keywords);
+Pose read_pose(nb::dict keywords);
+
 /// The value of every keyword of a stage, or of all.
 nb::typed<nb::dict, nb::str, nb::any> describe_options(const MeshOptions& options, std::string_view stage = {});
+
+/// The library's own values: of a stage, of all, or of "simulation", "material" or "pose".
+nb::typed<nb::dict, nb::str, nb::any> default_options(std::string_view group);
 
 }  // namespace tetsoup::python

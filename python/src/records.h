@@ -76,6 +76,15 @@ class Record {
     return *this;
   }
 
+  /// What is computed from the members.
+  template <class V>
+  Record& field(const char* name, V (T::*function)() const, const char* doc) {
+    class_.def_prop_ro(name, function, doc);
+    names_.append(name);
+    note_names();
+    return *this;
+  }
+
  private:
   void note_names() { class_.attr("__match_args__") = nb::tuple(names_); }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tetsoup/pipeline.h"
+#include "tetsoup/simulate.h"
 #include "tetsoup/tet_model.h"
 
 namespace tetsoup::python {
@@ -62,6 +63,14 @@ template <>
 inline constexpr std::array kWords<Stage>{Word<Stage>{"soup", Stage::Soup}, Word<Stage>{"distance", Stage::Distance},
                                           Word<Stage>{"pseudo_volume", Stage::PseudoVolume},
                                           Word<Stage>{"lattice", Stage::Lattice}, Word<Stage>{"smooth", Stage::Smooth}};
+
+template <>
+inline constexpr std::array kWords<Solver>{Word<Solver>{"implicit", Solver::Implicit},
+                                           Word<Solver>{"potentials", Solver::Potentials}};
+template <>
+inline constexpr std::array kWords<Contacts>{Word<Contacts>{"all", Contacts::All},
+                                             Word<Contacts>{"between", Contacts::Between},
+                                             Word<Contacts>{"none", Contacts::None}};
 
 template <class E>
 const char* word_of(E value) {

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import typing
 
+import numpy as np
 import pytest
 import tetsoup
 from conftest import ROOT, real_package
@@ -41,11 +42,15 @@ def test_every_option_of_the_library_has_a_keyword_with_a_type():
         (tetsoup.LatticeOptions, "lattice"),
         (tetsoup.SmoothOptions, "smooth"),
         (tetsoup.MeshOptions, ""),
+        (tetsoup.SimulationOptions, "simulation"),
+        (tetsoup.MaterialOptions, "material"),
+        (tetsoup.PoseOptions, "pose"),
     ):
         assert set(typing.get_type_hints(group)) == set(_core.default_options(stage))
     signature = inspect.signature(tetsoup.tetrahedralize)
     assert signature.parameters["rho_min"].default == tetsoup.default_options()["rho_min"]
     assert "rho_min" in tetsoup.tetrahedralize.__doc__ and "rho_min" not in tetsoup.smooth.__doc__
+    assert inspect.signature(tetsoup.Simulation.add_body).parameters["young"].default == 1e5
 
 
 def test_defaults_are_the_librarys(cube):
@@ -99,15 +104,38 @@ def test_example_batch(tmp_path):
     assert len((tmp_path / "out" / "batch.csv").read_text().splitlines()) == 5
 
 
-def test_the_readmes_lines_mesh_the_bunny_and_show_it(bunny, tmp_path):
+@pytest.fixture(scope="module")
+def off_screen(tmp_path_factory):
+    """What makes pyvista draw without a screen, or the test is skipped where it cannot."""
+    real_package("pyvista")
+    lines = "import pyvista; pyvista.OFF_SCREEN = True\n"
+    probe = [sys.executable, "-c", f"{lines}pyvista.Sphere().plot(screenshot='probe.png')"]
+    if subprocess.run(probe, cwd=tmp_path_factory.mktemp("probe"), capture_output=True, check=False).returncode != 0:
+        pytest.skip("pyvista cannot draw off screen here")
+    return lines
+
+
+@pytest.mark.parametrize("source", ["heart", "bunny"])
+def test_example_drop_bunny(off_screen, source, request, tmp_path):
+    image = real_package("PIL.Image")
+    example, path = EXAMPLES / "drop_bunny.py", "" if source == "heart" else request.getfixturevalue("bunny")
+    assert len(example.read_text().splitlines()) < 30
+    run(sys.executable, example, path, "drop.gif", "15", cwd=tmp_path)
+    with image.open(tmp_path / "drop.gif") as picture:
+        frames = []
+        for frame in range(picture.n_frames):
+            picture.seek(frame)
+            frames.append(np.asarray(picture.convert("L"), float))
+    assert len(frames) == 15
+    heights = [np.flatnonzero((frame - frames[-1]).any(axis=1)).min() for frame in frames[:-1]]
+    assert heights[0] < heights[-1]  # rows count downwards: it falls
+
+
+def test_the_readmes_lines_mesh_the_bunny_and_show_it(off_screen, bunny, tmp_path):
     pyvista = real_package("pyvista")
     readme = (ROOT / "python" / "README.md").read_text()
     lines = re.search(r"```python\n(.*?)```", readme, re.DOTALL)
     assert lines and lines[1].count("\n") <= 12
-    off_screen = "import pyvista; pyvista.OFF_SCREEN = True\n"
-    probe = [sys.executable, "-c", f"{off_screen}pyvista.Sphere().plot(screenshot='probe.png')"]
-    if subprocess.run(probe, cwd=tmp_path, capture_output=True, check=False).returncode != 0:
-        pytest.skip("pyvista cannot draw off screen here")
     (tmp_path / "bunny.ply").symlink_to(bunny)
     run(sys.executable, "-c", off_screen + lines[1].replace("cpos=", "screenshot='bunny.png', cpos="), cwd=tmp_path)
     assert len(tetsoup.read_tets(tmp_path / "bunny.msh").tets) == pytest.approx(2000, rel=0.05)

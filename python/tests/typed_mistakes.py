@@ -12,3 +12,9 @@ mesh.save(3)  # wrong
 mesh.save("bunny", engine=3)  # wrong
 mesh.regions("bunny.obj", by="colour")  # wrong
 mesh.embed("bunny.obj").bend  # wrong
+simulation = tetsoup.Simulation(solver="fast")  # wrong
+simulation = tetsoup.Simulation(substep=3)  # wrong
+simulation.add_body(mesh, young="stiff")  # wrong
+simulation.add_bodies(mesh, [(0, 0, 1)], youngs=3)  # wrong
+simulation.energy.heat  # wrong
+simulation.step("long")  # wrong

@@ -28,5 +28,15 @@ def main(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64]) -> flo
     moved: npt.NDArray[np.float32] = embedding.deform(points * 2)
     pins = {"floor": mesh.vertices_below(0.1)}
     mesh.save("bunny", engine="newton", up="y", regions=mesh.regions(surface), pins=pins, embedding=embedding)
+    simulation = tetsoup.Simulation(substeps=20, gravity=(0, 0, -1.6), contacts="between")
+    simulation.add_plane(friction=0.3)
+    body: int = simulation.add_body(mesh, young=1e6, translate=points[0], rotate=(90, 0, 0))
+    for other in simulation.add_bodies(mesh, points, rotate=points, poisson=0.3):
+        simulation.pin(other, mesh.vertices_below(0.1))
+    simulation.step(1 / 60)
+    positions: npt.NDArray[np.float32] = simulation.positions(body)
+    state: bytes = simulation.save_state()
+    parts += simulation.report.contacts + simulation.state_hash + len(state) + len(embedding.deform(positions))
+    seconds["energy"] = simulation.energy.total + simulation.momentum(body).linear[2]
     parts += int(moved.size) + len(surface.parts[0].material)
     return parts + seconds["lattice"] + float(points[tets].sum()) + int(votes.max()) + mesh.readiness(density=500).mass

@@ -1,4 +1,4 @@
-"""tetsoup: any triangle soup in, a coarse and well-shaped tetrahedral mesh out.
+"""tetsoup: any triangle soup in, a coarse and well-shaped tetrahedral mesh out, and a simulation of it.
 
 Example:
     >>> import tetsoup
@@ -22,14 +22,17 @@ from tetsoup._core import (
     CleanSoup,
     DistanceField,
     EmbedReport,
+    Energy,
     InvalidInput,
     IoError,
     LatticeReport,
+    Momentum,
     PseudoVolume,
     PseudoVolumeReport,
     Quality,
     Readiness,
     ReadinessCheck,
+    SimulationReport,
     SmoothReport,
     SoupReport,
     TopologyReport,
@@ -38,6 +41,7 @@ from tetsoup._embedding import Embedding, embed, read_embedding
 from tetsoup._mesh import Report, TetMesh
 from tetsoup._model import Material, Regions
 from tetsoup._progress import Progress, tqdm_progress
+from tetsoup._simulation import Simulation
 from tetsoup._soup_input import Soup, as_soup
 from tetsoup._stages import (
     LatticeMesh,
@@ -53,10 +57,14 @@ from tetsoup._stages import (
 )
 from tetsoup._surface import Part, RenderMesh, read_surface
 from tetsoup.options import (
+    BodyOptions,
     DistanceOptions,
     LatticeOptions,
+    MaterialOptions,
     MeshOptions,
+    PoseOptions,
     PseudoVolumeOptions,
+    SimulationOptions,
     SmoothOptions,
     default_options,
 )
@@ -181,6 +189,7 @@ def _as_soup(vertices: npt.NDArray[np.float32], faces: npt.NDArray[np.uint32]) -
 
 __all__ = [
     "BandScore",
+    "BodyOptions",
     "BoundaryDistance",
     "Cancelled",
     "CleanSoup",
@@ -188,15 +197,19 @@ __all__ = [
     "DistanceOptions",
     "EmbedReport",
     "Embedding",
+    "Energy",
     "InvalidInput",
     "IoError",
     "LatticeMesh",
     "LatticeOptions",
     "LatticeReport",
     "Material",
+    "MaterialOptions",
     "MeshOptions",
+    "Momentum",
     "Part",
     "Pipeline",
+    "PoseOptions",
     "Progress",
     "PseudoVolume",
     "PseudoVolumeOptions",
@@ -207,6 +220,9 @@ __all__ = [
     "Regions",
     "RenderMesh",
     "Report",
+    "Simulation",
+    "SimulationOptions",
+    "SimulationReport",
     "SmoothOptions",
     "SmoothReport",
     "SmoothResult",

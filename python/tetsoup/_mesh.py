@@ -16,7 +16,7 @@ from tetsoup import _core, _interop, _model
 from tetsoup._core import InvalidInput
 from tetsoup._embedding import Embedding, embed
 from tetsoup._model import Axis, Body, Material, PartKind, Regions, make_model
-from tetsoup._soup_input import as_indices, as_points
+from tetsoup._soup_input import as_indices, as_points, as_triple
 
 if TYPE_CHECKING:
     from tetsoup._progress import Progress
@@ -229,7 +229,7 @@ class TetMesh:
 
     def vertices_in_box(self, lo: Sequence[float], hi: Sequence[float]) -> npt.NDArray[np.int32]:
         """Vertices in a box, its faces included, (n,) int32 ascending. Example: ``mesh.vertices_in_box(lo, hi)``."""
-        return _core.vertices_in_box(self._handle, _triple(lo, "lo"), _triple(hi, "hi"))
+        return _core.vertices_in_box(self._handle, as_triple(lo, "lo"), as_triple(hi, "hi"))
 
     def vertices_below(self, offset: float, normal: Sequence[float] = (0, 0, 1)) -> npt.NDArray[np.int32]:
         """Vertices with dot(normal, vertex) <= offset, (n,) int32 ascending. Example: ``mesh.vertices_below(0.1)``.
@@ -237,7 +237,7 @@ class TetMesh:
         Raises:
             tetsoup.InvalidInput: if the normal is zero or not finite.
         """
-        return _core.vertices_below(self._handle, _triple(normal, "normal"), offset)
+        return _core.vertices_below(self._handle, as_triple(normal, "normal"), offset)
 
     def vertices_near(self, surface: Any, name: str, *, progress: Progress | None = None) -> npt.NDArray[np.int32]:
         """Vertices to which faces of this object, group or material are nearest, (n,) int32 ascending.
@@ -288,11 +288,3 @@ class TetMesh:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return TetMesh, (self.points, self.tets)
-
-
-def _triple(values: Sequence[float], name: str) -> tuple[float, float, float]:
-    try:
-        x, y, z = (float(value) for value in values)
-    except (TypeError, ValueError) as error:
-        raise InvalidInput(f"{name} = {values!r}, must be three numbers") from error
-    return x, y, z

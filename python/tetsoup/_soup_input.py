@@ -93,6 +93,14 @@ def as_choices(values: Any, name: str, count: int) -> Faces:
     return np.ascontiguousarray(array, np.int32).view(np.uint32)
 
 
+def as_triple(values: Any, name: str) -> tuple[float, float, float]:
+    try:
+        x, y, z = (float(value) for value in values)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise _core.InvalidInput(f"{name} = {values!r}, must be three numbers") from error
+    return x, y, z
+
+
 def _as_array(values: Any, name: str) -> npt.NDArray[Any]:
     try:
         return np.asarray(values)

@@ -2,7 +2,7 @@
 
 Each is one line: keyword, type, meaning. Defaults are the library's own (`tetsoup.default_options()`); leaving a
 keyword out takes them. Lengths are in the soup's own unit unless a name ends in ``_voxels`` or ``_cells``; angles are
-radians.
+radians, but degrees for how a body of a simulation is turned and spins.
 """
 
 from __future__ import annotations
@@ -95,6 +95,60 @@ class MeshOptions(DistanceOptions, PseudoVolumeOptions, LatticeOptions, SmoothOp
     """All options there are."""
 
 
+class SimulationOptions(TypedDict, total=False):
+    """How bodies move. Metres, kilograms, seconds."""
+
+    solver: Annotated[
+        Literal["implicit", "potentials"],
+        "position based and stable at any step; or explicit forces that keep lengths, areas and volumes",
+    ]
+    gravity: Annotated[Triple, "(x, y, z), m/s^2"]
+    substeps: Annotated[int, "of a step, at least, 1..10000; 'potentials' takes more where its stability asks for it,"]
+    max_substeps: Annotated[int, "and 'implicit' up to so many where bodies would else be softer than their material"]
+    contact_interval: Annotated[int, "of `substeps`, from one search for contacts to the next, >= 1"]
+    contacts: Annotated[
+        Literal["all", "between", "none"], "'between': bodies not with themselves; 'none': not even with obstacles"
+    ]
+    distance_stiffness: Annotated[float | None, "of 'potentials', J; None: from the material"]
+    area_stiffness: Annotated[float | None, "likewise"]
+    volume_stiffness: Annotated[float | None, "likewise"]
+
+
+class MaterialOptions(TypedDict, total=False):
+    """What a body is made of."""
+
+    density: Annotated[float, "kg/m^3"]
+    young: Annotated[float, "Young's modulus, Pa"]
+    poisson: Annotated[float, "Poisson ratio, [0, 0.5)"]
+    damping_time: Annotated[float, "s: stress grows by this much of what the rate of strain would add in a second"]
+    friction: Annotated[float, "Coulomb's coefficient; between two bodies the geometric mean counts"]
+    metres_per_unit: Annotated[float, "length of the mesh's unit; 0.001 for millimetres"]
+
+
+class PoseOptions(TypedDict, total=False):
+    """Where a body is placed and how it moves there: scaled, turned about x, then y, then z, and shifted."""
+
+    translate: Annotated[Triple, "(x, y, z), m"]
+    rotate: Annotated[Triple, "about x, then y, then z, degrees, as in the tool's scenes"]
+    scale: Annotated[float, "> 0"]
+    velocity: Annotated[Triple, "(x, y, z), m/s"]
+    spin: Annotated[Triple, "(x, y, z), degrees a second, about the centre of mass"]
+
+
+class BodyOptions(MaterialOptions, PoseOptions, total=False):
+    """Material and pose."""
+
+
+GROUPS = {
+    DistanceOptions: "distance",
+    PseudoVolumeOptions: "pseudo_volume",
+    LatticeOptions: "lattice",
+    SmoothOptions: "smooth",
+    RunOptions: "run",
+    SimulationOptions: "simulation",
+    MaterialOptions: "material",
+    PoseOptions: "pose",
+}
 ALL_GROUPS = (DistanceOptions, PseudoVolumeOptions, LatticeOptions, SmoothOptions, RunOptions)
 
 
@@ -117,11 +171,11 @@ def documented(*groups: Any) -> Callable[[Function], Function]:
     """Shows the options of these groups as keywords in `help()` and to completers, with defaults and meaning."""
 
     def show(function: Function) -> Function:
-        defaults = _core.default_options("")
         signature = inspect.signature(function)
         parameters = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
         lines = []
         for group in groups:
+            defaults = _core.default_options(GROUPS[group])
             lines += ["", f"    {group.__name__}: {inspect.getdoc(group)}"]
             for name, hint in get_type_hints(group, include_extras=True).items():
                 kind, meaning = get_args(hint) if get_origin(hint) is Annotated else (hint, "")
