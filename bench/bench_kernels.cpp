@@ -51,7 +51,7 @@ struct UnitTets {
           batches[0].responses[3 * c + axis][lane] = c == 0 ? -0.1F : c == axis + 1 ? 0.1F : 0;
       }
       for (std::uint32_t axis = 0; axis < 3; ++axis) batches[0].gradients[4 * axis][lane] = 1;
-      batches[0].volume_compliance[lane] = 1;
+      batches[0].volume_compliance[lane] = batches[0].damping[lane] = 1;
       rotations[0].q[3][lane] = 1;
     }
   }

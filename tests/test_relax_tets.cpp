@@ -148,5 +148,23 @@ TEST(RigidMotion, CorrectedDisplacementsHaveTheMomentaThatWerePredictedWithTheSa
   });
 }
 
+TEST(RelaxTets, WhatIsMovedTooFarOrToNoNumberIsHeldBack) {
+  constexpr float kH = 0.5F, kMost = 2;
+  std::vector<kernel::Motion> motions(32, {1, 0, 0, 1});
+  const std::vector<Place> start(32, {1, 1, 1, 1});
+  for_each_simd_target([&](const std::string& target) {
+    std::vector<Place> places(32, {1.6F, 1, 1, 1});  // 0.1 from where it was predicted
+    places[3].y = 7;
+    places[20].z = std::numeric_limits<float>::quiet_NaN();
+    places[31].x = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(kernel::hold_back(places, start, motions, kMost, kH), 3U) << target;
+    EXPECT_EQ(places[0].x, 1.6F);
+    EXPECT_NEAR(places[3].y, 1 + kMost, 0.01F);
+    EXPECT_EQ(places[20].x, 1.5F);
+    EXPECT_EQ(places[20].z, 1);
+    EXPECT_EQ(places[31].x, 1.5F);
+  });
+}
+
 }  // namespace
 }  // namespace tetsoup

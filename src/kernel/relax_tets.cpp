@@ -163,8 +163,9 @@ HWY_INLINE void relax_lanes(const TetBatch& batch, TetRotations& rotations, cons
     Corners start;
     load_corners(substep.start, batch, lane, start);
     const Strain strain = strain_of(deformation_gradient(start, g), to_matrix(before));
-    e = minus(e, scaled(strain.shape, set(substep.damped)));
-    wanted = hn::Mul(strain.volume, set(substep.damped));
+    const Floats damped = hn::Mul(set(substep.damped), hn::Load(d, batch.damping + lane));
+    e = minus(e, scaled(strain.shape, damped));
+    wanted = hn::Mul(strain.volume, damped);
   }
   relax_shape(e, batch, lane, p);
   relax_volume(deformation_gradient(p, g), g, hn::Load(d, batch.volume_compliance + lane), wanted, p);

@@ -18,6 +18,7 @@ struct alignas(64) TetBatch {
   TetLanes gradients[9];       ///< Of the barycentric coordinates of corners 1, 2, 3 at rest: x, y, z each.
   TetLanes responses[12];      ///< Corner i moves by -(F - R) responses[i] under the deviatoric energy: x, y, z each.
   TetLanes volume_compliance;  ///< Of det F = 1 in this substep: 1 / (lambda V h^2).
+  TetLanes damping;            ///< Share of Substep::damped that counts for this tet, 0..1.
 };
 
 /// The rotation R nearest to each tet's deformation gradient F, as a quaternion x, y, z, w; followed from substep to

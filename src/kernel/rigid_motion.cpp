@@ -1,5 +1,7 @@
 #include "kernel/rigid_motion.h"
 
+#include <limits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernel/rigid_motion.cpp"
 #include <hwy/foreach_target.h>
@@ -44,6 +46,36 @@ void predict(std::span<Place> places, std::span<Place> start, std::span<Motion> 
     p.z = hn::Add(p.z, hn::Mul(step, v.z));
     store_block(p, &places[i].x);
   });
+}
+
+std::size_t hold_back(std::span<Place> places, std::span<const Place> start, std::span<const Motion> motions,
+                      float most, float h) {
+  const Lanes d;
+  const Floats step = set(h), farthest = set(most);
+  std::size_t count = 0;
+  for_lanes(places.size(), [&](std::size_t i) {
+    Columns p = load_block(&places[i].x);
+    const Columns from = load_block(&start[i].x), v = load_block(&motions[i].x);
+    const Floats px = hn::Add(from.x, hn::Mul(step, v.x)), py = hn::Add(from.y, hn::Mul(step, v.y)),
+                 pz = hn::Add(from.z, hn::Mul(step, v.z));
+    const Floats x = hn::Sub(p.x, px), y = hn::Sub(p.y, py), z = hn::Sub(p.z, pz);
+    const Floats square = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+    const auto near = hn::Le(square, hn::Mul(farthest, farthest));  // false where it is no number
+    if (hn::AllTrue(d, near)) return;
+    count += hn::Lanes(d) - hn::CountTrue(d, near);
+    // Of what is no number, or beyond the range of numbers, nothing is left.
+    const auto known = hn::Le(square, set(std::numeric_limits<float>::max()));
+    const Floats scale = hn::IfThenElseZero(known, hn::Div(farthest, hn::Sqrt(square)));
+    const auto held = [&](Floats at, Floats predicted, Floats off) {
+      const Floats back = hn::Add(predicted, hn::IfThenElseZero(known, hn::Mul(scale, off)));
+      return hn::IfThenElse(near, at, back);
+    };
+    p.x = held(p.x, px, x);
+    p.y = held(p.y, py, y);
+    p.z = held(p.z, pz, z);
+    store_block(p, &places[i].x);
+  });
+  return count;
 }
 
 /// Adds mass times d, and mass times r x d, to six sums.
@@ -129,11 +161,17 @@ HWY_AFTER_NAMESPACE();
 namespace tetsoup::kernel {
 
 HWY_EXPORT(predict);
+HWY_EXPORT(hold_back);
 HWY_EXPORT(sum_motion);
 HWY_EXPORT(correct_motion);
 
 void predict(std::span<Place> places, std::span<Place> start, std::span<Motion> motions, const Vec3& kick, float h) {
   HWY_DYNAMIC_DISPATCH(predict)(places, start, motions, kick, h);
+}
+
+std::size_t hold_back(std::span<Place> places, std::span<const Place> start, std::span<const Motion> motions,
+                      float most, float h) {
+  return HWY_DYNAMIC_DISPATCH(hold_back)(places, start, motions, most, h);
 }
 
 MotionSums sum_motion(std::span<const Place> places, std::span<const Place> start, std::span<const Motion> motions,

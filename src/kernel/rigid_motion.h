@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include "kernel/places.h"
@@ -23,6 +24,12 @@ struct RigidDisplacement {
 
 /// Velocities += kick where a vertex can move; start = places; places += h velocity. All arrays in whole blocks.
 void predict(std::span<Place> places, std::span<Place> start, std::span<Motion> motions, const Vec3& kick, float h);
+
+/// Brings vertices back that elasticity has moved farther than `most` from where they were predicted, or to where no
+/// number is; the others stay to the bit.
+/// @return  How many.
+std::size_t hold_back(std::span<Place> places, std::span<const Place> start, std::span<const Motion> motions,
+                      float most, float h);
 
 /// The same bits on every instruction set: sixteen partial sums in float, added in their order in double.
 MotionSums sum_motion(std::span<const Place> places, std::span<const Place> start, std::span<const Motion> motions,

@@ -38,12 +38,21 @@ void set_lane(kernel::TetLanes* to, std::size_t lane, const Vec3d& v) {
   to[2][lane] = static_cast<float>(v.z);
 }
 
+/// What counts as the edge of a tet for its damping: in flat tets less than the mean, since the least of their moves is
+/// much strain; in a good tet heights are more than half of it.
+double edge_of(const Rest& rest, const std::array<Vec3d, 4>& gradients) {
+  double edge = rest.mean_edge;
+  for (const Vec3d& g : gradients) edge = std::min(edge, 2 / length(g));
+  return edge;
+}
+
 /// [kernel/relax_tets.h]: responses 2 mu V h^2 w (I + S)^-1 g, all stiffer by 1 + damping_time / h.
 void prepare_tet(Rest& rest, std::size_t t, double h) {
   const Tet& tet = rest.piece.tets[t];
   const TetCorners p = corners_at(rest.piece.places, tet);
   const std::array<Vec3d, 4> g = barycentric_gradients(p);
-  const double volume = signed_volume(p), stiffer = h * (h + rest.damping_time(h));
+  const double volume = signed_volume(p), damping_time = rest.damping_time(h, edge_of(rest, g));
+  const double stiffer = h * (h + damping_time);
   const double stiffness = 2 * rest.shear_modulus() * volume * stiffer;
   Vec3d diagonal{1, 1, 1}, off;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -58,10 +67,16 @@ void prepare_tet(Rest& rest, std::size_t t, double h) {
     set_lane(batch.responses + 3 * i, lane,
              solve_symmetric(diagonal, off, g[i]) * (stiffness * rest.inverse_mass(tet[i])));
   }
+  const double most = share_of(rest.damping_time(h, rest.mean_edge), h);
+  batch.damping[lane] = static_cast<float>(most > 0 ? share_of(damping_time, h) / most : 0);
   batch.volume_compliance[lane] = static_cast<float>(std::min(kLargest, 1 / (rest.lame() * volume * stiffer)));
 }
 
 }  // namespace
+
+double share_of(double damping_time, double h) {
+  return damping_time / (damping_time + h);
+}
 
 std::array<Vec3d, 4> barycentric_gradients(const TetCorners& p) {
   const double scale = 1 / (6 * signed_volume(p));
@@ -120,13 +135,15 @@ double mean_edge(const Piece& piece) {
   return sum / static_cast<double>(6 * piece.tets.size());
 }
 
-double Rest::damping_time(double h) const {
+double Rest::damping_time(double h, double edge) const {
   // A sweep does not reach the balance of a stiff body, and viscosity would keep what is amiss as if it were the
   // strain before: beams sag, and crumple where waves of elasticity and viscosity together pass two edges in a substep.
   constexpr double kEdges = 1;
-  constexpr double kAlways = 0.3;  // substeps: no beam crumpled at any stiffness
-  const double edges = h / wave_time();
-  return std::min(material.damping_time, h * std::max(kAlways, std::pow(kEdges / edges, 2) - 1));
+  constexpr double kAlways = 0.3;  // substeps: no beam crumpled with it
+  constexpr double kTried = 12;    // edges in a substep, of those beams
+  const double edges = h / wave_time(edge);
+  const double least = kAlways * std::min(1.0, std::pow(kTried / edges, 2));
+  return std::min(material.damping_time, h * std::max(least, std::pow(kEdges / edges, 2) - 1));
 }
 
 Rest make_rest(Piece piece, const SimMaterial& material) {

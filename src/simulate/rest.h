@@ -42,10 +42,10 @@ struct Rest {
     const double nu = material.elastic.poisson;
     return material.elastic.young * nu / ((1 + nu) * (1 - 2 * nu));
   }
-  /// In which a wave along a rod passes a mean edge, s.
-  double wave_time() const { return mean_edge / std::sqrt(material.elastic.young / material.elastic.density); }
-  /// What is taken of the material's damping in substeps of h, s.
-  double damping_time(double h) const;
+  /// In which a wave along a rod passes an edge, s.
+  double wave_time(double edge) const { return edge / std::sqrt(material.elastic.young / material.elastic.density); }
+  /// What is taken of the material's damping in substeps of h where edges are so long, s.
+  double damping_time(double h, double edge) const;
   double inverse_mass(std::size_t v) const { return held[v] != 0 ? 0 : 1 / masses[v]; }
   bool is_held() const;
 };
@@ -53,6 +53,9 @@ struct Rest {
 double mean_edge(const Piece& piece);
 
 Rest make_rest(Piece piece, const SimMaterial& material);
+
+/// Of the strain at the start of a substep, which viscosity holds on to.
+double share_of(double damping_time, double h);
 
 /// Makes the batches' constants for substeps of h.
 void prepare(Rest& rest, double h);

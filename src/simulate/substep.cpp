@@ -31,10 +31,12 @@ void relax(const Rest& rest, Part& part, const kernel::Substep& substep, StageWa
 }
 
 /// What elasticity took from the momenta is given back. Held parts have no momentum of their own.
-void settle_momenta(World& world, const Part& part, double h) {
+void settle_momenta(World& world, Part& part, double h) {
   const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
   const auto motions = world.slice(world.motions, part);
   const auto step = static_cast<float>(h);
+  // No sound body's vertices are moved by an edge in a substep; those of tets that are nearly flat may be, and far.
+  part.clamped += kernel::hold_back(places, start, motions, static_cast<float>(world.rest_of(part).mean_edge), step);
   Vec3 centre{start[0].x, start[0].y, start[0].z};
   kernel::RigidDisplacement missing;
   if (!world.rest_of(part).is_held()) {
@@ -49,9 +51,9 @@ void move_implicitly(World& world, Part& part, double h, StageWatch& watch) {
   const Vec3 kick = to_float(world.options.gravity * ((part.last_h + h) / 2));
   const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
   kernel::predict(places, start, world.slice(world.motions, part), kick, static_cast<float>(h));
-  const double damping_time = world.rest_of(part).damping_time(h);
-  const auto damped = static_cast<float>(damping_time / (damping_time + h));
-  relax(world.rest_of(part), part, {places.data(), start.data(), damped}, watch);
+  const Rest& rest = world.rest_of(part);
+  const auto damped = static_cast<float>(share_of(rest.damping_time(h, rest.mean_edge), h));
+  relax(rest, part, {places.data(), start.data(), damped}, watch);
   settle_momenta(world, part, h);
 }
 
@@ -85,7 +87,7 @@ int count_substeps(const World& world, double dt) {
   const bool implicit = world.options.solver == Solver::Implicit;
   double h = dt / world.options.substeps;
   if (implicit)
-    for (const Rest& rest : world.rests) h = std::min(h, rest.wave_time());
+    for (const Rest& rest : world.rests) h = std::min(h, rest.wave_time(rest.mean_edge));
   else
     for (const SpringNet& net : world.nets) h = std::min(h, net.stable_time_step);
   const int most = implicit ? std::max(world.options.substeps, world.options.max_substeps) : kMaxSubsteps;
