@@ -144,6 +144,22 @@ TEST(SimulateElastic, ABodyTurnedInsideOutOrScatteredReturns) {
             0.01);
 }
 
+TEST(SimulateElastic, NearlyFlatTetsDoNotThrowABodyOutOfTheNumbers) {
+  for (const float height : {1e-3F, 1e-4F, 1e-5F}) {
+    TetMesh mesh = block_mesh({3, 2, 2}, 0.1);
+    // The top comes down onto the layer below it.
+    for (Vec3& p : mesh.vertices)
+      if (p.z > 0.19F) p.z = 0.1F + height;
+    Simulation simulation;
+    simulation.add_plane({0, 0, 1}, 0);
+    const std::size_t body = simulation.add_body(mesh, {}, {.translate = {0, 0, 0.2}, .rotate = {0.3, 0.2, 0}});
+    for (int frame = 0; frame < 120; ++frame) {
+      simulation.step(kFrame);
+      for (const Vec3& p : simulation.positions(body)) ASSERT_LT(length(to_double(p)), 100) << height << ' ' << frame;
+    }
+  }
+}
+
 TEST(SimulateElastic, PotentialsBringAStretchedBodyBack) {
   EXPECT_LT(distortion_after(
                 [](const Vec3d& p) {
