@@ -153,10 +153,8 @@ Scene open_scene(const SimulateOptions& options) {
   if (is_builtin(options.input) && !fs::exists(options.input, ignored)) {
     scene = make_scene(options.input);
   } else if (options.input.find('.') == std::string::npos && !fs::exists(options.input, ignored)) {
-    std::string known;
-    for (const std::string& name : scene_names()) known += (known.empty() ? "" : ", ") + name;
-    throw InvalidInput(
-        fmt::format("{}: there is neither such a scene nor such a file; the scenes are {}", options.input, known));
+    throw InvalidInput(fmt::format("{}: there is neither such a scene nor such a file; the scenes are {}",
+                                   options.input, fmt::join(scene_names(), ", ")));
   } else {
     check_input(options.input);
     scene = read_scene(options.input);

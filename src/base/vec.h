@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "tetsoup/types.h"
 
@@ -62,6 +63,14 @@ inline Vec3d min(const Vec3d& a, const Vec3d& b) {
 }
 inline Vec3d max(const Vec3d& a, const Vec3d& b) {
   return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+
+/// Around points; at the origin where there are none.
+inline Box3 box_of(std::span<const Vec3> points) {
+  if (points.empty()) return {};
+  Box3 box{to_double(points[0]), to_double(points[0])};
+  for (const Vec3& p : points) box = {min(box.lo, to_double(p)), max(box.hi, to_double(p))};
+  return box;
 }
 
 }  // namespace tetsoup

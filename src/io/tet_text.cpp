@@ -1,10 +1,9 @@
 // Tet meshes as text that lists vertices and tets, one function per format. Corners stay in our order everywhere: all
 // these formats take D = (b-a)x(c-a).(d-a) > 0 as positive. TetGen too: version 1.6 was seen to give only tets with
 // D > 0.
-#include <algorithm>
-#include <limits>
 #include <string>
 
+#include "base/vec.h"
 #include "io/model_parts.h"
 #include "io/number_text.h"
 #include "io/text_capacity.h"
@@ -13,27 +12,12 @@
 
 namespace tetsoup {
 
-namespace {
-
-Box3 box_of(const TetMesh& mesh) {
-  if (mesh.vertices.empty()) return {};
-  constexpr double kHuge = std::numeric_limits<double>::max();
-  Box3 box{{kHuge, kHuge, kHuge}, {-kHuge, -kHuge, -kHuge}};
-  for (const Vec3& v : mesh.vertices) {
-    box.lo = {std::min<double>(box.lo.x, v.x), std::min<double>(box.lo.y, v.y), std::min<double>(box.lo.z, v.z)};
-    box.hi = {std::max<double>(box.hi.x, v.x), std::max<double>(box.hi.y, v.y), std::max<double>(box.hi.z, v.z)};
-  }
-  return box;
-}
-
-}  // namespace
-
 // One entity, so one node block and one element block: MuJoCo takes no other.
 std::string msh41_text(const TetModel& model) {
   const TetMesh& mesh = model.mesh;
   std::string text = text_for(mesh);
   const std::size_t nodes = mesh.vertices.size(), tets = mesh.tets.size();
-  const Box3 box = box_of(mesh);
+  const Box3 box = box_of(mesh.vertices);
   text += "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n";
   append_line(text, 1, box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z, 0, 0);
   text += "$EndEntities\n$Nodes\n";

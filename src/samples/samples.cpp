@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/listing.h"
 #include "base/require.h"
 #include "samples/formula.h"
 #include "samples/shapes.h"
@@ -34,9 +35,7 @@ constexpr std::array<Sample, 6> kSamples{{
 const Sample& find_sample(std::string_view name) {
   const auto found = std::find_if(kSamples.begin(), kSamples.end(), [&](const Sample& s) { return s.name == name; });
   if (found != kSamples.end()) return *found;
-  std::string known;
-  for (const Sample& sample : kSamples) known += (known.empty() ? "" : ", ") + std::string(sample.name);
-  throw InvalidInput("sample = " + std::string(name) + ", must be one of " + known);
+  throw InvalidInput("sample = " + std::string(name) + ", must be one of " + listing(sample_names()));
 }
 
 }  // namespace

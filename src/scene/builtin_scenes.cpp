@@ -1,6 +1,7 @@
 // The scenes that come with the tool: samples, boxes, and materials between jelly and rubber.
 #include <algorithm>
 
+#include "base/listing.h"
 #include "tetsoup/error.h"
 #include "tetsoup/scene.h"
 
@@ -167,9 +168,7 @@ const BuiltinScene& find_scene(std::string_view name) {
   const auto found =
       std::find_if(kScenes.begin(), kScenes.end(), [&](const auto& scene) { return scene.name == name; });
   if (found != kScenes.end()) return *found;
-  std::string known;
-  for (const BuiltinScene& scene : kScenes) known += (known.empty() ? "" : ", ") + std::string(scene.name);
-  throw InvalidInput("scene = " + std::string(name) + ", must be one of " + known);
+  throw InvalidInput("scene = " + std::string(name) + ", must be one of " + listing(scene_names()));
 }
 
 }  // namespace

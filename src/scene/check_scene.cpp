@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/listing.h"
 #include "base/vec.h"
 #include "scene/check.h"
 #include "scene/problem.h"
@@ -132,11 +133,9 @@ void check_source(const std::string& path, const SceneSource& s, const char* kin
   if (s.sample.empty() && s.file.empty() && s.tets_file.empty() && !s.box)
     throw Problem(path, std::string("it has no shape; give ") + kinds);
   const std::vector<std::string> samples = sample_names();
-  if (!s.sample.empty() && std::find(samples.begin(), samples.end(), s.sample) == samples.end()) {
-    std::string known;
-    for (const std::string& name : samples) known += (known.empty() ? "" : ", ") + name;
-    throw Problem(member_path(path, "sample"), "there is no sample \"" + s.sample + "\"; there are " + known);
-  }
+  if (!s.sample.empty() && std::find(samples.begin(), samples.end(), s.sample) == samples.end())
+    throw Problem(member_path(path, "sample"),
+                  "there is no sample \"" + s.sample + "\"; there are " + listing(samples));
   if (s.sample.empty() && s.damage != 0) throw Problem(member_path(path, "damage"), "only a sample can be damaged");
   check_at_most_one(path, {{"size", s.size.has_value()}, {"metres_per_unit", s.metres_per_unit.has_value()}});
   if (s.box && (s.size || s.metres_per_unit))

@@ -162,16 +162,12 @@ class Loader {
   }
 
   static std::string extent_words(const TetMesh& mesh) {
-    Vec3 lo = mesh.vertices.front(), hi = lo;
-    for (const Vec3& p : mesh.vertices) {
-      lo = min(lo, p);
-      hi = max(hi, p);
-    }
-    const auto words = [](const Vec3& p) {
+    const Box3 box = box_of(mesh.vertices);
+    const auto words = [](const Vec3d& p) {
       return "[" + number_words(std::round(p.x * 1e4) / 1e4) + ", " + number_words(std::round(p.y * 1e4) / 1e4) + ", " +
              number_words(std::round(p.z * 1e4) / 1e4) + "]";
     };
-    return "the body reaches from " + words(lo) + " to " + words(hi) + " m";
+    return "the body reaches from " + words(box.lo) + " to " + words(box.hi) + " m";
   }
 
   void add_moved(const std::string& path, const ScenePin& pin, std::size_t body, const ScenePlace& place,

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/listing.h"
 #include "scene/check.h"
 #include "scene/problem.h"
 #include "tetsoup/error.h"
@@ -100,9 +101,7 @@ class Reader {
   void finish() const {
     for (const auto& [key, value] : object_.items()) {
       if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-      std::string known;
-      for (const std::string_view name : known_) known += (known.empty() ? "" : ", ") + std::string(name);
-      throw Problem(member_path(path_, as_written(key)), "there is no such key here; there are " + known);
+      throw Problem(member_path(path_, as_written(key)), "there is no such key here; there are " + listing(known_));
     }
   }
 
@@ -149,16 +148,14 @@ class Reader {
   }
   template <class Value, std::size_t size>
   static void read(const std::string& path, const Json& value, Value& member, const Words<Value, size>& words) {
-    std::string known;
     const std::string given = value.is_string() ? value.get<std::string>() : value.dump();
     for (const Word<Value>& word : words.all) {
       if (given == word.word) {
         member = word.value;
         return;
       }
-      known += (known.empty() ? "" : ", ") + std::string(word.word);
     }
-    fail_type(path, "one of " + known, value);
+    fail_type(path, "one of " + listing(words.all, [](const Word<Value>& word) { return word.word; }), value);
   }
   template <class Member>
   requires HasFields<Member>

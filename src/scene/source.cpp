@@ -81,7 +81,8 @@ Vec3d random_vector(double most, std::uint64_t seed, std::uint64_t instance, std
   return {one(0), one(1), one(2)};
 }
 
-Box3 box_of(std::span<const Vec3> points) {
+/// Around those that are finite; inside out where none is.
+Box3 finite_box_of(std::span<const Vec3> points) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Box3 box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
   for (const Vec3& p : points) {
@@ -99,12 +100,12 @@ Vec3d radians(const Vec3d& degrees) {
 }  // namespace
 
 double longest_side(std::span<const Vec3> points) {
-  const Box3 box = box_of(points);
+  const Box3 box = finite_box_of(points);
   return std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z});
 }
 
 Unit unit_of(const std::string& path, const SceneSource& source, std::span<const Vec3> points) {
-  const auto [lo, hi] = box_of(points);
+  const auto [lo, hi] = finite_box_of(points);
   const double longest = longest_side(points);
   if (longest < 0) throw Problem(path, "there is no point in it");
   if (source.size && !(longest > 0)) throw Problem(member_path(path, "size"), "the source has no extent");

@@ -86,16 +86,6 @@ std::size_t count_without_area(const TriangleSoup& soup, StageWatch& watch) {
   return parallel_sum<std::size_t>(static_cast<std::int64_t>(soup.triangles.size()), kGrain, watch, count);
 }
 
-Box3 box_of(const std::vector<Vec3>& vertices) {
-  if (vertices.empty()) return {};
-  Box3 box{to_double(vertices[0]), to_double(vertices[0])};
-  for (const Vec3& v : vertices) {
-    box.lo = min(box.lo, to_double(v));
-    box.hi = max(box.hi, to_double(v));
-  }
-  return box;
-}
-
 }  // namespace
 
 CleanSoup clean_soup(const TriangleSoup& soup, const Progress& progress) {

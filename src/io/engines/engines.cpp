@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/listing.h"
 #include "base/require.h"
 #include "io/engines/engine_table.h"
 #include "io/engines/scenes.h"
@@ -58,17 +59,17 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
 
 [[noreturn]] void fail_unknown(std::string_view name) {
   constexpr std::size_t kMostTypos = 2;
-  std::string nearest, known;
+  std::string nearest;
   std::size_t least = kMostTypos + 1;
   for (const Engine& engine : engines()) {
-    known += (known.empty() ? "" : ", ") + engine.name;
     if (const std::size_t typos = edit_distance(name, engine.name); typos < least) {
       least = typos;
       nearest = engine.name;
     }
   }
   throw InvalidInput("engine " + std::string(name) + ": there is no such engine; " +
-                     (nearest.empty() ? "" : "did you mean " + nearest + "? ") + "There are " + known);
+                     (nearest.empty() ? "" : "did you mean " + nearest + "? ") + "There are " +
+                     listing(engines(), [](const Engine& engine) { return engine.name; }));
 }
 
 fs::path mesh_path(const Engine& engine, const fs::path& path) {
