@@ -55,7 +55,7 @@ Make make(const TetMesh& mesh, const SimMaterial& material, double scale, const 
 
 void check_reach(const Make& m, const Pose& pose) {
   for (const Rest& rest : m.rests)  // masses of smaller ones leave single precision
-    require(rest.mean_edge >= kMinEdge, "mean edge of the tets", rest.mean_edge, "at least 1e-6 m");
+    require(rest.piece.mean_edge >= kMinEdge, "mean edge of the tets", rest.piece.mean_edge, "at least 1e-6 m");
   const double out = m.radius + length(pose.translate);
   require(out <= kMaxCoordinate, "distance of a vertex from the origin", out, "at most 1e5 m");
   const double speed = length(pose.velocity) + 2 * m.radius * length(pose.spin);

@@ -42,6 +42,8 @@ class Search {
   const Rest& rest(std::size_t p) const { return world_.rest_of(part(p)); }
   const RestSurface& surface(std::size_t p) const { return world_.surfaces[part(p).surface]; }
   Vec3 place(std::uint32_t slot) const { return to_vec(world_.places[slot]); }
+  /// What lay so near at rest is not kept apart, m^2.
+  double squared_neighbourhood(std::size_t p) const { return std::pow(kNeighbours * rest(p).piece.mean_edge, 2); }
 
   template <class Body>
   void for_parts(const Body& body) {
@@ -127,7 +129,7 @@ class Search {
     const RestSurface& skin = surface(task.part);
     kernel::Neighbours neighbours;
     if (other.body == part(task.part).body)
-      neighbours = {skin.middles, static_cast<float>(std::pow(kNeighbours * skin.mean_edge, 2))};
+      neighbours = {skin.middles, static_cast<float>(squared_neighbourhood(task.part))};
     std::vector<kernel::PointInBox> found;
     kernel::find_boxes_around(part(task.part).boxes, points, task.other.ahead, neighbours, found);
     std::vector<Hit> hits;
@@ -198,10 +200,10 @@ class Search {
     const std::uint32_t other = world_.owners[hit.vertex];
     if (part(other).body == part(hit.part).body) {
       const Vec3d own = rest(other).piece.places[hit.vertex - part(other).begin];
-      if (squared_length(own - at) < std::pow(kNeighbours * skin.mean_edge, 2)) return {};
+      if (squared_length(own - at) < squared_neighbourhood(hit.part)) return {};
     }
     const SurfacePoint point = nearest_surface_point(skin, piece, hit.tet, at, way_in(hit));
-    Contact contact{hit.vertex, {}, {}, 0, static_cast<float>(kReach * skin.mean_edge), hit.part, point.triangle};
+    Contact contact{hit.vertex, {}, {}, 0, static_cast<float>(kReach * piece.mean_edge), hit.part, point.triangle};
     for (std::size_t i = 0; i < 3; ++i) {
       contact.corners[i] = part(hit.part).begin + skin.triangles[point.triangle][i];
       contact.weights[i] = static_cast<float>(point.weights[i]);

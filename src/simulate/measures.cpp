@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "base/hash.h"
+
 namespace tetsoup::simulate {
 namespace {
 
@@ -57,11 +59,6 @@ double elastic_energy(const World& world, const Part& part) {
   return sum;
 }
 
-/// FNV-1a, word by word.
-void add_to_hash(std::uint64_t& hash, float value) {
-  hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001B3U;
-}
-
 }  // namespace
 
 Energy measure_energy(const World& world) {
@@ -103,14 +100,14 @@ double measure_volume(const World& world, const Body& body) {
 }
 
 std::uint64_t hash_state(const World& world) {
-  std::uint64_t hash = 0xCBF29CE484222325U;
+  WordHash hash;
   for (const Part& part : world.parts) {
     for (const kernel::Place& p : world.slice(world.places, part))
-      for (const float v : {p.x, p.y, p.z}) add_to_hash(hash, v);
+      for (const float v : {p.x, p.y, p.z}) hash.add(std::bit_cast<std::uint32_t>(v));
     for (const kernel::Motion& m : world.slice(world.motions, part))
-      for (const float v : {m.x, m.y, m.z}) add_to_hash(hash, v);
+      for (const float v : {m.x, m.y, m.z}) hash.add(std::bit_cast<std::uint32_t>(v));
   }
-  return hash;
+  return hash.value();
 }
 
 }  // namespace tetsoup::simulate

@@ -60,7 +60,7 @@ bool may_touch_itself(const World& world, const Part& part) {
   };
   for (const std::uint32_t v : surface.vertices) shift += left(v);
   shift = shift * (1 / static_cast<double>(surface.vertices.size()));
-  const double most = std::pow(kNeighbours * surface.mean_edge / 2, 2);
+  const double most = std::pow(kNeighbours * rest.piece.mean_edge / 2, 2);
   return std::any_of(surface.vertices.begin(), surface.vertices.end(),
                      [&](std::uint32_t v) { return squared_length(left(v) - shift) > most; });
 }
@@ -73,7 +73,7 @@ PartPairs find_part_pairs(const World& world, double horizon, StageWatch& watch)
   std::vector<Drift> drifts(count);
   std::vector<std::uint8_t> bent(count, 0);
   const double gained = length(world.options.gravity) * horizon;
-  const auto most_ahead = [&](std::size_t p) { return kMostAhead * world.surfaces[world.parts[p].surface].mean_edge; };
+  const auto most_ahead = [&](std::size_t p) { return kMostAhead * world.rest_of(world.parts[p]).piece.mean_edge; };
   parallel_for(static_cast<std::int64_t>(count), 1, watch, [&](std::int64_t begin, std::int64_t) {
     const auto p = static_cast<std::size_t>(begin);
     const Part& part = world.parts[p];

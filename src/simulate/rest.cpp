@@ -38,10 +38,19 @@ void set_lane(kernel::TetLanes* to, std::size_t lane, const Vec3d& v) {
   to[2][lane] = static_cast<float>(v.z);
 }
 
+double mean_edge_of(const Piece& piece) {
+  double sum = 0;
+  for (const Tet& tet : piece.tets) {
+    const TetCorners p = corners_at(piece.places, tet);
+    for (const auto& [a, b] : kTetEdges) sum += length(p[static_cast<std::size_t>(a)] - p[static_cast<std::size_t>(b)]);
+  }
+  return sum / static_cast<double>(6 * piece.tets.size());
+}
+
 /// What counts as the edge of a tet for its damping: in flat tets less than the mean, since the least of their moves is
 /// much strain; in a good tet heights are more than half of it.
 double edge_of(const Rest& rest, const std::array<Vec3d, 4>& gradients) {
-  double edge = rest.mean_edge;
+  double edge = rest.piece.mean_edge;
   for (const Vec3d& g : gradients) edge = std::min(edge, 2 / length(g));
   return edge;
 }
@@ -67,7 +76,7 @@ void prepare_tet(Rest& rest, std::size_t t, double h) {
     set_lane(batch.responses + 3 * i, lane,
              solve_symmetric(diagonal, off, g[i]) * (stiffness * rest.inverse_mass(tet[i])));
   }
-  const double most = share_of(rest.damping_time(h, rest.mean_edge), h);
+  const double most = share_of(rest.damping_time(h, rest.piece.mean_edge), h);
   batch.damping[lane] = static_cast<float>(most > 0 ? share_of(damping_time, h) / most : 0);
   batch.volume_compliance[lane] = static_cast<float>(std::min(kLargest, 1 / (rest.lame() * volume * stiffer)));
 }
@@ -119,20 +128,12 @@ std::vector<Piece> split_pieces(const TetMesh& mesh, double scale) {
     }
     piece.tets.push_back(own);
   }
+  for (Piece& piece : pieces) piece.mean_edge = mean_edge_of(piece);
   return pieces;
 }
 
 bool Rest::is_held() const {
   return std::any_of(held.begin(), held.end(), [](std::uint8_t h) { return h != 0; });
-}
-
-double mean_edge(const Piece& piece) {
-  double sum = 0;
-  for (const Tet& tet : piece.tets) {
-    const TetCorners p = corners_at(piece.places, tet);
-    for (const auto& [a, b] : kTetEdges) sum += length(p[static_cast<std::size_t>(a)] - p[static_cast<std::size_t>(b)]);
-  }
-  return sum / static_cast<double>(6 * piece.tets.size());
 }
 
 double Rest::damping_time(double h, double edge) const {
@@ -148,7 +149,6 @@ double Rest::damping_time(double h, double edge) const {
 
 Rest make_rest(Piece piece, const SimMaterial& material) {
   Rest rest;
-  rest.mean_edge = mean_edge(piece);
   rest.piece = std::move(piece);
   rest.material = material;
   const std::size_t count = rest.piece.places.size();

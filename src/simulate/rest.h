@@ -19,6 +19,7 @@ struct Piece {
   std::vector<Vec3d> places;            ///< At rest, in metres.
   std::vector<Tet> tets;                ///< Of positive volume, into `places`.
   std::vector<std::uint32_t> vertices;  ///< Of the mesh, for each place.
+  double mean_edge = 0;                 ///< Of the tets, m.
 };
 
 /// The pieces of a mesh, by their first tets; tets that cannot be simulated are in none.
@@ -34,7 +35,6 @@ struct Rest {
   std::vector<std::uint32_t> lanes;       ///< Place of each tet in the batches: batch * kTetLanes + lane.
   std::vector<kernel::TetBatch> batches;  ///< Responses and compliances as `prepare` made them.
   std::vector<std::size_t> colours;       ///< Ends of runs of batches that share no vertex.
-  double mean_edge = 0;                   ///< m
   double prepared_for = 0;                ///< Substep, s.
 
   double shear_modulus() const { return material.elastic.young / (2 * (1 + material.elastic.poisson)); }
@@ -49,8 +49,6 @@ struct Rest {
   double inverse_mass(std::size_t v) const { return held[v] != 0 ? 0 : 1 / masses[v]; }
   bool is_held() const;
 };
-
-double mean_edge(const Piece& piece);
 
 Rest make_rest(Piece piece, const SimMaterial& material);
 

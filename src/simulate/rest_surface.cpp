@@ -99,9 +99,10 @@ void order_tets(RestSurface& surface, const Piece& piece) {
   surface.middles.resize((entries.size() + kernel::kBoxGroup - 1) / kernel::kBoxGroup);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     surface.tet_order.push_back(entries[i].index);
-    const Vec3 at = to_float(middle(entries[i].index));
+    const auto [x, y, z] = to_float(middle(entries[i].index));
     kernel::MiddleGroup& group = surface.middles[i / kernel::kBoxGroup];
-    for (std::size_t axis = 0; axis < 3; ++axis) group.at[axis][i % kernel::kBoxGroup] = (&at.x)[axis];
+    const std::size_t place = i % kernel::kBoxGroup;
+    group.at[0][place] = x, group.at[1][place] = y, group.at[2][place] = z;
   }
 }
 
@@ -145,7 +146,6 @@ RestSurface make_rest_surface(const Piece& piece) {
   surface.vertices.erase(std::unique(surface.vertices.begin(), surface.vertices.end()), surface.vertices.end());
   surface.near.resize(piece.tets.size());
   order_tets(surface, piece);
-  surface.mean_edge = mean_edge(piece);
   return surface;
 }
 
@@ -159,12 +159,12 @@ void find_near_triangles(RestSurface& surface, const Piece& piece, std::uint32_t
   std::vector<std::pair<double, std::uint32_t>> found;
   // Distance is 1-Lipschitz: what is nearest somewhere in the ball is at most so much farther from its middle; what
   // faces some way counts up to a mean edge from the ball. How far the nearest is, is not known at first.
-  for (double reach = radius + surface.mean_edge;; reach = std::max(2 * reach, least + 2 * radius)) {
+  for (double reach = radius + piece.mean_edge;; reach = std::max(2 * reach, least + 2 * radius)) {
     found = triangles_within(surface, piece, middle, reach);
     if (!found.empty()) least = found.front().first;
     if (reach >= least + 2 * radius) break;
   }
-  const double farthest = std::max(least + 2 * radius, radius + surface.mean_edge);
+  const double farthest = std::max(least + 2 * radius, radius + piece.mean_edge);
   NearTriangles& near = surface.near[tet];
   near.middle = middle;
   for (const auto& [distance, triangle] : found) {
@@ -178,7 +178,7 @@ SurfacePoint nearest_surface_point(const RestSurface& surface, const Piece& piec
                                    const std::optional<Vec3d>& facing) {
   constexpr double kSameSide = 0.5;  // cosine
   SurfacePoint nearest;
-  double least = facing ? surface.mean_edge * surface.mean_edge : std::numeric_limits<double>::infinity();
+  double least = facing ? piece.mean_edge * piece.mean_edge : std::numeric_limits<double>::infinity();
   bool found = false;
   const NearTriangles& near = surface.near[tet];
   const double from_middle = length(p - near.middle);

@@ -33,7 +33,6 @@ struct RestSurface {
   std::vector<NearTriangles> near;           ///< Of every tet, once asked for.
   std::vector<std::uint32_t> tet_order;      ///< All tets, neighbours near each other.
   std::vector<kernel::MiddleGroup> middles;  ///< Of the tets, in this order.
-  double mean_edge = 0;                      ///< Of the tets.
 };
 
 RestSurface make_rest_surface(const Piece& piece);

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "base/hash.h"
 #include "tetsoup/error.h"
 
 namespace tetsoup::simulate {
@@ -11,15 +12,15 @@ namespace {
 /// Of the layout below, and of what it belongs to.
 constexpr std::uint64_t kVersion = 0x31'6574'6174'7374;  // "tstate1"
 
-/// FNV-1a over words of eight bytes and what is left.
+/// Over words of eight bytes and what is left.
 std::uint64_t hash_of(std::span<const std::byte> bytes) {
-  std::uint64_t hash = 0xCBF29CE484222325U;
+  WordHash hash;
   for (std::size_t i = 0; i < bytes.size(); i += 8) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data() + i, std::min<std::size_t>(8, bytes.size() - i));
-    hash = (hash ^ word) * 0x100000001B3U;
+    hash.add(word);
   }
-  return hash;
+  return hash.value();
 }
 
 /// Puts values one after another, or takes them out again.

@@ -36,7 +36,8 @@ void settle_momenta(World& world, Part& part, double h) {
   const auto motions = world.slice(world.motions, part);
   const auto step = static_cast<float>(h);
   // No sound body's vertices are moved by an edge in a substep; those of tets that are nearly flat may be, and far.
-  part.clamped += kernel::hold_back(places, start, motions, static_cast<float>(world.rest_of(part).mean_edge), step);
+  part.clamped +=
+      kernel::hold_back(places, start, motions, static_cast<float>(world.rest_of(part).piece.mean_edge), step);
   Vec3 centre{start[0].x, start[0].y, start[0].z};
   kernel::RigidDisplacement missing;
   if (!world.rest_of(part).is_held()) {
@@ -52,7 +53,7 @@ void move_implicitly(World& world, Part& part, double h, StageWatch& watch) {
   const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
   kernel::predict(places, start, world.slice(world.motions, part), kick, static_cast<float>(h));
   const Rest& rest = world.rest_of(part);
-  const auto damped = static_cast<float>(share_of(rest.damping_time(h, rest.mean_edge), h));
+  const auto damped = static_cast<float>(share_of(rest.damping_time(h, rest.piece.mean_edge), h));
   relax(rest, part, {places.data(), start.data(), damped}, watch);
   settle_momenta(world, part, h);
 }
@@ -63,7 +64,7 @@ void move_by_potentials(World& world, Part& part, double h) {
   const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
   const auto motions = world.slice(world.motions, part);
   const double kick = (part.last_h + h) / 2;
-  const double most = world.surfaces[part.surface].mean_edge / h;
+  const double most = rest.piece.mean_edge / h;
   part.clamped += add_forces(world.nets[part.rest], rest, places, motions, kick, most);
   kernel::predict(places, start, motions, to_float(world.options.gravity * kick), static_cast<float>(h));
 }
@@ -87,7 +88,7 @@ int count_substeps(const World& world, double dt) {
   const bool implicit = world.options.solver == Solver::Implicit;
   double h = dt / world.options.substeps;
   if (implicit)
-    for (const Rest& rest : world.rests) h = std::min(h, rest.wave_time(rest.mean_edge));
+    for (const Rest& rest : world.rests) h = std::min(h, rest.wave_time(rest.piece.mean_edge));
   else
     for (const SpringNet& net : world.nets) h = std::min(h, net.stable_time_step);
   const int most = implicit ? std::max(world.options.substeps, world.options.max_substeps) : kMaxSubsteps;
