@@ -45,4 +45,19 @@ std::optional<XmlTag> next_tag(TetScanner& in) {
   return std::nullopt;
 }
 
+std::string escaped_xml(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
+
 }  // namespace tetsoup

@@ -21,4 +21,7 @@ struct XmlTag {
 /// Next tag; the scanner then stands behind it. Declarations and comments are skipped. Nothing at the end of the file.
 std::optional<XmlTag> next_tag(TetScanner& in);
 
+/// Text as it may stand in an attribute.
+std::string escaped_xml(std::string_view text);
+
 }  // namespace tetsoup

@@ -6,7 +6,6 @@
 #include <system_error>
 #include <utility>
 
-#include "io/engines/scene_parts.h"
 #include "io/number_text.h"
 #include "io/raw_numbers.h"
 #include "io/soup_readers.h"

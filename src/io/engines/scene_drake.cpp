@@ -71,18 +71,9 @@ def simulate(seconds=1.0, view=False):
 
 std::string drake_scene(const SceneInput& input) {
   const Drop drop = plan_drop(input, kLimit);
-  return filled_script(kScene, {{"name", drop.name},
-                                {"file", quoted_python(input.mesh_file)},
-                                {"height", brief(drop.height)},
-                                {"young", brief(drop.young)},
-                                {"why", drop.stiffness_why},
-                                {"poisson", brief(drop.poisson)},
-                                {"density", brief(drop.density)},
-                                {"pins", pin_list(input.model, 0, ", ")},
-                                {"x", brief(drop.x)},
-                                {"y", brief(drop.y)},
-                                {"lift", brief(drop.lift)},
-                                {"quat", upright_wxyz(input.model.up, ", ")}});
+  return filled_script(kScene, gaps_of(drop, {{"file", quoted_python(input.mesh_file)},
+                                              {"pins", pin_list(input.model, 0, ", ")},
+                                              {"quat", upright_wxyz(input.model.up, ", ")}}));
 }
 
 }  // namespace tetsoup

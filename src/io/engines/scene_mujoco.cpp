@@ -1,5 +1,6 @@
 // MuJoCo's scene: a flexcomp above a plane.
 #include "io/engines/scene_parts.h"
+#include "io/xml_tags.h"
 
 namespace tetsoup {
 
@@ -35,23 +36,14 @@ std::string mujoco_scene(const SceneInput& input) {
   const Drop drop = plan_drop(input, kLimit);
   std::string pins = pin_list(input.model, 0, " ");
   if (!pins.empty()) pins = "\n      <pin id=\"" + pins + "\"/>";
-  return filled(kScene, {{"name", drop.name},
-                         {"why", drop.stiffness_why},
-                         {"step", brief(drop.time_step)},
-                         {"middle", brief(drop.height / 2)},
-                         {"height", brief(drop.height)},
-                         {"high", brief(3 * drop.height)},
-                         {"wide", brief(5 * drop.height)},
-                         {"file", escaped_xml(input.mesh_file)},
-                         {"mass", brief(drop.mass)},
-                         {"radius", brief(0.005 * drop.height)},
-                         {"x", brief(drop.x)},
-                         {"y", brief(drop.y)},
-                         {"lift", brief(drop.lift)},
-                         {"quat", upright_wxyz(input.model.up, " ")},
-                         {"young", brief(drop.young)},
-                         {"poisson", brief(drop.poisson)},
-                         {"pins", pins}});
+  return filled(kScene, gaps_of(drop, {{"step", brief(drop.time_step)},
+                                       {"middle", brief(drop.height / 2)},
+                                       {"high", brief(3 * drop.height)},
+                                       {"wide", brief(5 * drop.height)},
+                                       {"file", escaped_xml(input.mesh_file)},
+                                       {"radius", brief(0.005 * drop.height)},
+                                       {"quat", upright_wxyz(input.model.up, " ")},
+                                       {"pins", pins}}));
 }
 
 }  // namespace tetsoup

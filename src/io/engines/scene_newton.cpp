@@ -71,17 +71,10 @@ def simulate(seconds=1.0, view=False):
 
 std::string newton_scene(const SceneInput& input) {
   const Drop drop = plan_drop(input, kLimit);
-  return filled_script(kScene, {{"name", drop.name},
-                                {"file", quoted_python(input.mesh_file)},
-                                {"height", brief(drop.height)},
-                                {"young", brief(drop.young)},
-                                {"why", drop.stiffness_why},
-                                {"stiffening", brief(drop.stiffening)},
-                                {"contact", brief(drop.young * drop.edge)},
-                                {"x", brief(drop.x)},
-                                {"y", brief(drop.y)},
-                                {"lift", brief(drop.lift)},
-                                {"quat", upright_xyzw(input.model.up, ", ")}});
+  return filled_script(kScene, gaps_of(drop, {{"file", quoted_python(input.mesh_file)},
+                                              {"stiffening", brief(drop.stiffening)},
+                                              {"contact", brief(drop.young * drop.edge)},
+                                              {"quat", upright_xyzw(input.model.up, ", ")}}));
 }
 
 }  // namespace tetsoup

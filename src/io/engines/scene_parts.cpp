@@ -138,7 +138,21 @@ std::string upright_xyzw(UpAxis up, std::string_view between) {
   return text.substr(first + between.size()) + std::string(between) + text.substr(0, first);
 }
 
-std::string filled(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> gaps) {
+Gaps gaps_of(const Drop& drop, Gaps more) {
+  more.insert(more.end(), {{"name", drop.name},
+                           {"why", drop.stiffness_why},
+                           {"height", brief(drop.height)},
+                           {"mass", brief(drop.mass)},
+                           {"density", brief(drop.density)},
+                           {"young", brief(drop.young)},
+                           {"poisson", brief(drop.poisson)},
+                           {"x", brief(drop.x)},
+                           {"y", brief(drop.y)},
+                           {"lift", brief(drop.lift)}});
+  return more;
+}
+
+std::string filled(std::string_view text, const Gaps& gaps) {
   std::string result;
   while (true) {
     const std::size_t begin = text.find('@');
@@ -157,7 +171,7 @@ std::string filled(std::string_view text, std::initializer_list<std::pair<std::s
   }
 }
 
-std::string filled_script(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> gaps) {
+std::string filled_script(std::string_view text, const Gaps& gaps) {
   return filled(std::string(text) + std::string(kScriptEnd), gaps);
 }
 
@@ -177,21 +191,6 @@ std::string quoted_python(std::string_view text) {
       result += c;
   }
   return result + '"';
-}
-
-std::string escaped_xml(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
 }
 
 Unions pieces_of(const TetMesh& mesh) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,16 +45,21 @@ std::pair<double, double> lame(const Drop& drop);
 std::string upright_wxyz(UpAxis up, std::string_view between);
 std::string upright_xyzw(UpAxis up, std::string_view between);
 
-/// The text with every "@name@" replaced by what stands beside it.
-std::string filled(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> gaps);
+/// Names that stand between @ in a text, and what comes in their place.
+using Gaps = std::vector<std::pair<std::string_view, std::string>>;
+
+/// `more`, and what every scene may ask of the drop: name, why, height, mass, density, young, poisson, x, y, lift.
+Gaps gaps_of(const Drop& drop, Gaps more);
+
+/// The text with all gaps filled.
+std::string filled(std::string_view text, const Gaps& gaps);
 
 /// The same of a Python script that has a function simulate(), with the lines that call it at its end.
-std::string filled_script(std::string_view text, std::initializer_list<std::pair<std::string_view, std::string>> gaps);
+std::string filled_script(std::string_view text, const Gaps& gaps);
 
 /// Four digits, which is what scenes show.
 std::string brief(double value);
 std::string quoted_python(std::string_view text);
-std::string escaped_xml(std::string_view text);
 /// Vertices that tets join are of one set.
 Unions pieces_of(const TetMesh& mesh);
 /// Pinned vertices in lines of sixteen.

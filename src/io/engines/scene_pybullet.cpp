@@ -12,7 +12,7 @@ namespace {
 constexpr StepLimit kLimit{1.0 / 240, 5};
 
 constexpr std::string_view kScene =
-    R"("""A soft body falls on a plane, in PyBullet: python @stem@_pybullet.py [--view]"""
+    R"("""A soft body falls on a plane, in PyBullet: python @name@_pybullet.py [--view]"""
 import pathlib
 import sys
 
@@ -72,22 +72,13 @@ std::size_t piece_count(const TetMesh& mesh) {
 std::string pybullet_scene(const SceneInput& input) {
   const Drop drop = plan_drop(input, kLimit);
   const auto [lambda, mu] = lame(drop);
-  return filled_script(kScene, {{"stem", drop.name},
-                                {"file", quoted_python(input.mesh_file)},
-                                {"step", "1 / " + brief(std::round(1 / drop.time_step))},
-                                {"height", brief(drop.height)},
-                                {"mass", brief(drop.mass)},
-                                {"young", brief(drop.young)},
-                                {"poisson", brief(drop.poisson)},
-                                {"why", drop.stiffness_why},
-                                {"mu", brief(mu)},
-                                {"lambda", brief(lambda)},
-                                {"pins", pin_list(input.model, 0, ", ")},
-                                {"pieces", std::to_string(piece_count(input.model.mesh))},
-                                {"x", brief(drop.x)},
-                                {"y", brief(drop.y)},
-                                {"lift", brief(drop.lift)},
-                                {"quat", upright_xyzw(input.model.up, ", ")}});
+  return filled_script(kScene, gaps_of(drop, {{"file", quoted_python(input.mesh_file)},
+                                              {"step", "1 / " + brief(std::round(1 / drop.time_step))},
+                                              {"mu", brief(mu)},
+                                              {"lambda", brief(lambda)},
+                                              {"pins", pin_list(input.model, 0, ", ")},
+                                              {"pieces", std::to_string(piece_count(input.model.mesh))},
+                                              {"quat", upright_xyzw(input.model.up, ", ")}}));
 }
 
 }  // namespace tetsoup

@@ -74,18 +74,11 @@ std::string youngs_of(const TetModel& model, const Drop& drop) {
 
 std::string sofa_scene(const SceneInput& input) {
   const Drop drop = plan_drop(input, kLimit);
-  return filled(kScene, {{"name", drop.name},
-                         {"file", quoted_python(input.mesh_file)},
-                         {"rotation", std::string(rotation_of(input.model.up))},
-                         {"x", brief(drop.x)},
-                         {"y", brief(drop.y)},
-                         {"lift", brief(drop.lift)},
-                         {"youngs", youngs_of(input.model, drop)},
-                         {"why", drop.stiffness_why},
-                         {"pins", pin_list(input.model, 0, ", ")},
-                         {"mass", brief(drop.mass)},
-                         {"poisson", brief(drop.poisson)},
-                         {"contact", brief(drop.young * drop.edge)}});
+  return filled(kScene, gaps_of(drop, {{"file", quoted_python(input.mesh_file)},
+                                       {"rotation", std::string(rotation_of(input.model.up))},
+                                       {"youngs", youngs_of(input.model, drop)},
+                                       {"pins", pin_list(input.model, 0, ", ")},
+                                       {"contact", brief(drop.young * drop.edge)}}));
 }
 
 }  // namespace tetsoup
