@@ -1,10 +1,7 @@
 """The same meshes and scenes in every engine: real-time factors at the engine's own step, and at the largest that is right."""
-import json
 import math
-import signal
-import subprocess
-import sys
 
+from child import run_child
 import engines
 from judge import MOST_SOFT
 import scenes
@@ -22,17 +19,8 @@ QUICK_CASES = [("robot", 500)]
 
 def run(name, scene, substeps, budget=BUDGET):
     """A row of numbers; {"stable": False, "why": ...} where the engine gives none."""
-    command = [sys.executable, str(scenes.ROOT / "bench/simulation/drop.py"), name, scene["path"], str(substeps),
-               str(SECONDS), str(budget)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-        return {"stable": False, "why": "does not return", "asked": substeps, "substeps": substeps}
-    lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
-    if done.returncode != 0 or not lines:
-        last = (done.stderr.strip().splitlines() or ["no output"])[-1][:80]
-        return {"stable": False, "why": "crashes" if done.returncode < 0 else last, "asked": substeps,
-                "substeps": substeps}
-    return {"asked": substeps} | json.loads(lines[-1])
+    row = {"asked": substeps, "substeps": substeps, "stable": False}
+    return row | run_child("drop.py", name, scene["path"], substeps, SECONDS, budget, too_long="does not return")
 
 
 class Case:

@@ -1,11 +1,8 @@
 """Meshes of the same objects by several meshers, each simulated by tetsoup.Simulation."""
 import json
 import resource
-import signal
-import subprocess
-import sys
 
-import scenes
+from child import run_child
 from compare_engines import brief
 
 PACKAGES = ["tetsoup", "pytetwild", "tetgen", "gmsh", "pymeshfix", "scipy"]
@@ -18,16 +15,7 @@ def limit_time():
 
 
 def child(script, *arguments):
-    """Its line of JSON, or why there is none."""
-    command = [sys.executable, str(scenes.ROOT / "bench/simulation" / script), *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, preexec_fn=limit_time)
-    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-        return {"why": f"> {BUDGET} s"}
-    lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
-    if done.returncode == 0 and lines:
-        return json.loads(lines[-1])
-    last = (done.stderr.strip().splitlines() or ["no output"])[-1]
-    return {"why": "crashes" if done.returncode < 0 else last[:80]}
+    return run_child(script, *arguments, too_long=f"> {BUDGET} s", before=limit_time)
 
 
 def meshed(maker, name, path, keep):
