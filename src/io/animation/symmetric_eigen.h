@@ -11,8 +11,7 @@ struct EigenSystem {
   std::vector<double> vectors;  ///< Unit vectors, one after the other, in the order of the values.
 };
 
-/// By Jacobi's rotations.
 /// @param matrix  n x n.
-EigenSystem symmetric_eigen(std::vector<double> matrix, std::size_t n);
+EigenSystem symmetric_eigen(const std::vector<double>& matrix, std::size_t n);
 
 }  // namespace tetsoup::animation
