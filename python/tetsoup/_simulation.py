@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import operator
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,7 +13,19 @@ import numpy.typing as npt
 from tetsoup import _core
 from tetsoup._core import InvalidInput
 from tetsoup._mesh import TetMesh
-from tetsoup._soup_input import as_index_list, as_points, as_soup, as_triple
+from tetsoup._simulation_input import (
+    as_index,
+    as_number,
+    as_number_or_none,
+    as_radians,
+    as_rows,
+    as_whole,
+    body_number,
+    body_vertex,
+    body_vertices,
+    handle_of,
+)
+from tetsoup._soup_input import as_points, as_soup, as_triple
 from tetsoup.options import (
     BodyOptions,
     MaterialOptions,
@@ -88,9 +98,9 @@ class Simulation:
         pose = {key: value for key, value in options.items() if key in PoseOptions.__annotations__}
         material = {key: value for key, value in options.items() if key not in pose}
         for angles in {"rotate", "spin"} & pose.keys():
-            pose[angles] = _radians(pose[angles], angles)
+            pose[angles] = as_radians(pose[angles], angles)
         with self._alone() as core:
-            return core.add_bodies(_handle(mesh), material, [pose])
+            return core.add_bodies(handle_of(mesh), material, [pose])
 
     @documented(MaterialOptions)
     def add_bodies(
@@ -126,14 +136,14 @@ class Simulation:
         count = len(as_points(translate, "translate"))
         rows = {
             "translate": np.asarray(translate, np.float64).reshape(count, 3),
-            "rotate": np.radians(_rows(rotate, "rotate", (count, 3))),
-            "scale": _rows(scale, "scale", (count,)),
-            "velocity": _rows(velocity, "velocity", (count, 3)),
-            "spin": np.radians(_rows(spin, "spin", (count, 3))),
+            "rotate": np.radians(as_rows(rotate, "rotate", (count, 3))),
+            "scale": as_rows(scale, "scale", (count,)),
+            "velocity": as_rows(velocity, "velocity", (count, 3)),
+            "spin": np.radians(as_rows(spin, "spin", (count, 3))),
         }
         poses = [{name: values[i].tolist() for name, values in rows.items()} for i in range(count)]
         with self._alone() as core:
-            first = core.add_bodies(_handle(mesh), dict(material), poses)
+            first = core.add_bodies(handle_of(mesh), dict(material), poses)
         return range(first, first + count)
 
     def add_plane(self, normal: Triple = (0, 0, 1), offset: float = 0, friction: float | None = None) -> None:
@@ -150,9 +160,9 @@ class Simulation:
         Example:
             >>> simulation.add_plane((0, 0, 1), -0.5)
         """
-        towards, distance = as_triple(normal, "normal"), _number(offset, "offset")
+        towards, distance = as_triple(normal, "normal"), as_number(offset, "offset")
         with self._alone() as core:
-            core.add_plane(towards, distance, _maybe(friction, "friction"))
+            core.add_plane(towards, distance, as_number_or_none(friction, "friction"))
 
     def add_obstacle(
         self,
@@ -179,9 +189,9 @@ class Simulation:
             >>> simulation.add_obstacle("tree.obj", voxels=128)
         """
         soup = as_soup(vertices, faces)
-        size = None if voxels is None else _whole(voxels, "voxels")
+        size = None if voxels is None else as_whole(voxels, "voxels")
         with self._alone() as core:
-            core.add_obstacle(*soup, size, _maybe(friction, "friction"), progress)
+            core.add_obstacle(*soup, size, as_number_or_none(friction, "friction"), progress)
 
     def pin(self, body: int, vertices: npt.ArrayLike) -> None:
         """Holds vertices where they are.
@@ -197,12 +207,12 @@ class Simulation:
             >>> simulation.pin(body, mesh.vertices_below(0.01))
         """
         with self._alone() as core:
-            core.pin(*_vertices(core, body, vertices))
+            core.pin(*body_vertices(core, body, vertices))
 
     def unpin(self, body: int, vertices: npt.ArrayLike) -> None:
         """Lets go of what `pin` holds. Example: ``simulation.unpin(body, vertices)``."""
         with self._alone() as core:
-            core.unpin(*_vertices(core, body, vertices))
+            core.unpin(*body_vertices(core, body, vertices))
 
     def attach(self, body: int, vertex: int, other_body: int, other_vertex: int) -> None:
         """Makes two vertices one, as far as they can move.
@@ -214,7 +224,7 @@ class Simulation:
             >>> simulation.attach(0, 17, 1, 4)
         """
         with self._alone() as core:
-            core.attach(*_vertex(core, body, vertex), *_vertex(core, other_body, other_vertex))
+            core.attach(*body_vertex(core, body, vertex), *body_vertex(core, other_body, other_vertex))
 
     def add_spring(self, body: int, vertex: int, target: Triple, stiffness: float) -> int:
         """Pulls a vertex to a point: what a mouse does.
@@ -232,20 +242,20 @@ class Simulation:
         Example:
             >>> spring = simulation.add_spring(body, 17, (0, 0, 2), stiffness=500)
         """
-        point, strength = as_triple(target, "target"), _number(stiffness, "stiffness")
+        point, strength = as_triple(target, "target"), as_number(stiffness, "stiffness")
         with self._alone() as core:
-            return core.add_spring(*_vertex(core, body, vertex), point, strength)
+            return core.add_spring(*body_vertex(core, body, vertex), point, strength)
 
     def move_spring(self, spring: int, target: Triple) -> None:
         """Pulls elsewhere, m. Example: ``simulation.move_spring(spring, (0, 1, 2))``."""
         point = as_triple(target, "target")
         with self._alone() as core:
-            core.move_spring(_index(spring, "spring"), point)
+            core.move_spring(as_index(spring, "spring"), point)
 
     def remove_spring(self, spring: int) -> None:
         """Pulls no more. Example: ``simulation.remove_spring(spring)``."""
         with self._alone() as core:
-            core.remove_spring(_index(spring, "spring"))
+            core.remove_spring(as_index(spring, "spring"))
 
     def step(self, dt: float) -> None:
         """Advances time by `dt` seconds, (0, 1]. The interpreter's lock is released.
@@ -256,7 +266,7 @@ class Simulation:
         Example:
             >>> simulation.step(1 / 60)
         """
-        seconds = _number(dt, "dt")
+        seconds = as_number(dt, "dt")
         with self._alone() as core:
             core.step(seconds)
 
@@ -269,12 +279,12 @@ class Simulation:
             >>> simulation.positions(0).mean(axis=0)
         """
         with self._alone() as core:
-            return core.positions(_body(core, body))
+            return core.positions(body_number(core, body))
 
     def velocities(self, body: int) -> npt.NDArray[np.float32]:
         """How the body's vertices move, (P, 3) float32, m/s: a view as `positions` is. Half a substep ago."""
         with self._alone() as core:
-            return core.velocities(_body(core, body))
+            return core.velocities(body_number(core, body))
 
     def set_positions(self, body: int, positions: npt.ArrayLike) -> None:
         """Puts the body's vertices elsewhere; pinned ones too.
@@ -290,13 +300,13 @@ class Simulation:
         """
         rows = as_points(positions, "positions")
         with self._alone() as core:
-            core.set_positions(_body(core, body), rows)
+            core.set_positions(body_number(core, body), rows)
 
     def set_velocities(self, body: int, velocities: npt.ArrayLike) -> None:
         """Sets how the body's vertices move, (P, 3), m/s; at most 1e4. Raises as `set_positions` does."""
         rows = as_points(velocities, "velocities")
         with self._alone() as core:
-            core.set_velocities(_body(core, body), rows)
+            core.set_velocities(body_number(core, body), rows)
 
     @property
     def body_count(self) -> int:
@@ -325,12 +335,12 @@ class Simulation:
     def momentum(self, body: int | None = None) -> _core.Momentum:
         """Linear (kg m/s) and angular (kg m^2/s, about the origin), of one body or all."""
         with self._alone() as core:
-            return core.momentum() if body is None else core.momentum_of(_body(core, body))
+            return core.momentum() if body is None else core.momentum_of(body_number(core, body))
 
     def volume(self, body: int) -> float:
         """m^3, signed, of the body's tets as they are now."""
         with self._alone() as core:
-            return core.volume(_body(core, body))
+            return core.volume(body_number(core, body))
 
     @property
     def state_hash(self) -> int:
@@ -359,69 +369,3 @@ class Simulation:
 
     def __repr__(self) -> str:
         return f"<tetsoup.Simulation: {self.body_count:,} bodies, {self.report.tet_count:,} tets, {self.time:.4g} s>"
-
-
-def _handle(mesh: TetMesh) -> _core.TetMesh:
-    if not isinstance(mesh, TetMesh):
-        raise InvalidInput(f"mesh is of the type {type(mesh).__name__}, must be a TetMesh")
-    return mesh._handle
-
-
-def _number(value: Any, name: str) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InvalidInput(f"{name} = {value!r}, must be a number") from error
-
-
-def _maybe(value: Any, name: str) -> float | None:
-    return None if value is None else _number(value, name)
-
-
-def _whole(value: Any, name: str) -> int:
-    try:
-        number = operator.index(value)
-    except TypeError as error:
-        raise InvalidInput(f"{name} = {value!r}, must be a whole number") from error
-    if abs(number) >= 2**31:
-        raise InvalidInput(f"{name} = {value!r}, must be below 2^31")
-    return number
-
-
-def _index(value: Any, name: str) -> int:
-    number = _whole(value, name)
-    if number < 0:
-        raise InvalidInput(f"{name} = {value!r}, must be at least 0")
-    return number
-
-
-def _body(core: _core.Simulation, body: Any) -> int:
-    number, count = _index(body, "body"), core.body_count()
-    if number >= count:
-        raise InvalidInput(f"body = {number}, must be the number of a body, and there are {count}")
-    return number
-
-
-def _vertex(core: _core.Simulation, body: Any, vertex: Any) -> tuple[int, int]:
-    return _body(core, body), _index(vertex, "vertex")
-
-
-def _vertices(core: _core.Simulation, body: Any, vertices: npt.ArrayLike) -> tuple[int, npt.NDArray[np.uint32]]:
-    number, indices = _body(core, body), as_index_list(np.atleast_1d(vertices), "vertices")
-    count = len(core.positions(number))
-    if indices.size and int(indices.max()) >= count:
-        raise InvalidInput(f"vertices has the index {indices.max()}, must be below {count}")
-    return number, indices
-
-
-def _radians(degrees: Any, name: str) -> tuple[float, float, float]:
-    x, y, z = as_triple(degrees, name)
-    return math.radians(x), math.radians(y), math.radians(z)
-
-
-def _rows(values: npt.ArrayLike, name: str, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
-    try:
-        return np.array(np.broadcast_to(np.asarray(values, np.float64), shape))
-    except (TypeError, ValueError) as error:
-        wanted = " or ".join(str(end) for end in (shape, shape[1:]))
-        raise InvalidInput(f"{name} has the shape {np.shape(values)}, must be {wanted}") from error
