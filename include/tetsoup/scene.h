@@ -107,8 +107,8 @@ struct SceneObstacle {
   std::optional<ScenePlane> plane;
   SceneSource source;
   ScenePlace place;  ///< It neither moves nor spins.
-  int voxels = 64;
-  double friction = 0.5;
+  int voxels = kDefaultObstacleVoxels;
+  double friction = kDefaultFriction;
 };
 
 struct Scene {

@@ -15,6 +15,9 @@
 
 namespace tetsoup {
 
+inline constexpr double kDefaultFriction = 0.5;
+inline constexpr int kDefaultObstacleVoxels = 64;
+
 /// What a body is made of.
 struct SimMaterial {
   Material elastic{};
@@ -22,7 +25,7 @@ struct SimMaterial {
   /// angular frequency w dies with w^2 / 2 of it; that of a rigid body never does. The implicit solver takes less of it
   /// where a substep is long for the stiffness.
   double damping_time = 0.002;
-  double friction = 0.5;  ///< Coulomb's coefficient, >= 0; between two, the geometric mean counts.
+  double friction = kDefaultFriction;  ///< Coulomb's coefficient, >= 0; between two, the geometric mean counts.
 };
 
 /// Where a body is placed and how it moves there: scaled, turned about x, then y, then z, and shifted.
@@ -133,10 +136,11 @@ class Simulation {
   std::size_t add_bodies(const TetMesh& mesh, const SimMaterial& material, std::span<const Pose> poses);
 
   /// Keeps bodies where dot(normal, p) >= offset; the normal need not be a unit vector.
-  void add_plane(const Vec3d& normal, double offset, double friction = 0.5);
+  void add_plane(const Vec3d& normal, double offset, double friction = kDefaultFriction);
   /// Keeps bodies out of the pseudo volume of any soup, by its signed distance on a grid of so many voxels.
   /// @throws InvalidInput  if the soup has no finite triangle or a number is out of range; Cancelled.
-  void add_obstacle(const TriangleSoup& soup, int voxels = 64, double friction = 0.5, const Progress& progress = {});
+  void add_obstacle(const TriangleSoup& soup, int voxels = kDefaultObstacleVoxels, double friction = kDefaultFriction,
+                    const Progress& progress = {});
 
   /// Holds a vertex where it is.
   void pin(const BodyVertex& vertex);

@@ -13,10 +13,6 @@ namespace {
 
 using Triple = std::array<double, 3>;
 
-// The library's own defaults, which are those of its header's arguments.
-constexpr int kVoxels = 64;
-constexpr double kFriction = 0.5;
-
 Vec3d vector_of(const Triple& v) {
   return {v[0], v[1], v[2]};
 }
@@ -37,7 +33,7 @@ void add_obstacle(Simulation& self, PointsIn vertices, FacesIn faces, std::optio
                   std::optional<double> friction, nb::object progress) {
   const TriangleSoup soup = copy_soup(vertices, faces);
   call_library(progress, [&](const Progress& watch) {
-    self.add_obstacle(soup, voxels.value_or(kVoxels), friction.value_or(kFriction), watch);
+    self.add_obstacle(soup, voxels.value_or(kDefaultObstacleVoxels), friction.value_or(kDefaultFriction), watch);
   });
 }
 
@@ -81,7 +77,7 @@ void bind_scene(nb::class_<Simulation>& simulation) {
       .def(
           "add_plane",
           [](S& self, const Triple& normal, double offset, std::optional<double> friction) {
-            self.add_plane(vector_of(normal), offset, friction.value_or(kFriction));
+            self.add_plane(vector_of(normal), offset, friction.value_or(kDefaultFriction));
           },
           nb::arg("normal"), nb::arg("offset"), nb::arg("friction").none())
       .def("add_obstacle", &add_obstacle, nb::arg("vertices"), nb::arg("faces"), nb::arg("voxels").none(),

@@ -133,6 +133,15 @@ std::span<const Vec3> FrameView::points(std::size_t body) {
   return surface;
 }
 
+PlaneAxes axes_of(const AnimationPlane& plane) {
+  const double size = length(plane.normal);
+  const Vec3d normal = plane.normal * (1 / size);
+  const Vec3d along = std::abs(normal.x) < 0.8 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  Vec3d u = along - normal * dot(normal, along);
+  u = u * (1 / length(u));
+  return {normal, u, cross(normal, u), plane.offset / size};
+}
+
 void extend(Box3& box, const Vec3d& point) {
   box = {min(box.lo, point), max(box.hi, point)};
 }

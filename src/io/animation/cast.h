@@ -51,6 +51,13 @@ class FrameView {
   std::vector<std::vector<Vec3>> surfaces_;
 };
 
+/// A plane by unit vectors: its normal, and two in it.
+struct PlaneAxes {
+  Vec3d normal, u, v;
+  double offset = 0;  ///< Of the plane from the origin.
+};
+PlaneAxes axes_of(const AnimationPlane& plane);
+
 /// Around all points of all bodies.
 Box3 box_of(FrameView& view);
 void extend(Box3& box, const Vec3d& point);

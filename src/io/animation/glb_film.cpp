@@ -44,13 +44,9 @@ std::array<double, 4> turn_to_y_up(UpAxis up) {
 
 /// A square of a plane below the box, with room around.
 TriangleSoup patch_of(const AnimationPlane& plane, const Box3& box) {
-  const double size = length(plane.normal);
-  const Vec3d normal = plane.normal * (1 / size), middle = (box.lo + box.hi) * 0.5;
-  const Vec3d foot = middle - normal * (dot(normal, middle) - plane.offset / size);
-  const Vec3d along = std::abs(normal.x) < 0.8 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  Vec3d u = along - normal * dot(normal, along);
-  u = u * (1 / length(u));
-  const Vec3d v = cross(normal, u);
+  const auto [normal, u, v, offset] = axes_of(plane);
+  const Vec3d middle = (box.lo + box.hi) * 0.5;
+  const Vec3d foot = middle - normal * (dot(normal, middle) - offset);
   const double reach = 1.5 * std::max(length(box.hi - box.lo), 1e-6);
   TriangleSoup patch;
   for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})

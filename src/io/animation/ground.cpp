@@ -36,30 +36,24 @@ double smooth_step(double from, double to, double value) {
 
 }  // namespace
 
-Ground::Ground(const AnimationPlane& plane, const Box3& box, const Vec3d& light) : light_(light) {
-  const double size = length(plane.normal);
-  normal_ = plane.normal * (1 / size);
-  offset_ = plane.offset / size;
+Ground::Ground(const AnimationPlane& plane, const Box3& box, const Vec3d& light)
+    : axes_(axes_of(plane)), light_(light) {
   const Vec3d middle = (box.lo + box.hi) * 0.5;
-  origin_ = normal_ * offset_;  // Lines of the grid go through the foot of the world's origin.
-  const Vec3d along = std::abs(normal_.x) < 0.8 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  u_ = along - normal_ * dot(normal_, along);
-  u_ = u_ * (1 / length(u_));
-  v_ = cross(normal_, u_);
+  origin_ = axes_.normal * axes_.offset;  // Lines of the grid go through the foot of the world's origin.
   radius_ = std::max(length(box.hi - box.lo) / 2, 1e-9);
   cell_ = round_length(radius_ / 2.4);
   const std::array<double, 2> shift = on_plane(middle);
   // The origin moves by whole cells to below the middle of what is shown.
-  origin_ += u_ * (std::round(shift[0] / cell_) * cell_) + v_ * (std::round(shift[1] / cell_) * cell_);
+  origin_ += axes_.u * (std::round(shift[0] / cell_) * cell_) + axes_.v * (std::round(shift[1] / cell_) * cell_);
 }
 
 void Ground::draw(Image& image, const PreviewView& view, std::vector<double>& depths) {
-  const double height = dot(normal_, view.eye()) - offset_;
+  const double height = dot(axes_.normal, view.eye()) - axes_.offset;
   if (!(height > 0)) return;  // Seen from behind.
   const auto hit = [&](double x, double y, double& depth) {
     constexpr double kMiddle = TriangleTarget::kSupersampling;
     const Vec3d ray = view.ray(kMiddle * (x + 0.5), kMiddle * (y + 0.5));
-    depth = -height / dot(normal_, ray);
+    depth = -height / dot(axes_.normal, ray);
     return on_plane(view.eye() + ray * depth);
   };
   for (int y = 0; y < image.height; ++y) {
@@ -88,9 +82,9 @@ void Ground::draw(Image& image, const PreviewView& view, std::vector<double>& de
 }
 
 ScreenPoint Ground::shadow_of(const Vec3d& p) const {
-  const double slant = dot(normal_, light_);
+  const double slant = dot(axes_.normal, light_);
   if (!(slant > 0.05)) return {};  // The light does not reach this side, or grazes it.
-  const auto at = on_plane(p - light_ * ((dot(normal_, p) - offset_) / slant));
+  const auto at = on_plane(p - light_ * ((dot(axes_.normal, p) - axes_.offset) / slant));
   const double scale = TriangleTarget::kSupersampling * kShadowSize / (2 * kShadowReach * radius_);
   constexpr double kMiddle = TriangleTarget::kSupersampling * kShadowSize / 2.0;
   return {at[0] * scale + kMiddle, at[1] * scale + kMiddle, 1};

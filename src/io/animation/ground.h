@@ -32,10 +32,13 @@ class Ground {
     float u, v;      // In the target of shadows.
     float strength;  // Less in the distance.
   };
-  std::array<double, 2> on_plane(const Vec3d& p) const { return {dot(p - origin_, u_), dot(p - origin_, v_)}; }
+  std::array<double, 2> on_plane(const Vec3d& p) const {
+    return {dot(p - origin_, axes_.u), dot(p - origin_, axes_.v)};
+  }
 
-  Vec3d normal_, origin_, u_, v_, light_;
-  double offset_, radius_, cell_;
+  PlaneAxes axes_;
+  Vec3d origin_, light_;
+  double radius_, cell_;
   std::vector<Pixel> pixels_;
 };
 
