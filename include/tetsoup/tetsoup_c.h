@@ -10,8 +10,8 @@
  * handle as its first argument and is not one that only gives a view, and no longer than the handle. Texts are UTF-8,
  * end with a zero, and hold until the next call on the same thread that gives a text.
  *
- * Options are JSON texts with the keys of scene files (docs/SCENES.md); NULL stands for "{}", and what is left out is as
- * by default. Lengths, directions and signs are as in tetsoup/types.h: tets are positive, boundary triangles
+ * Options are JSON texts with the keys of scene files (docs/SCENES.md); NULL stands for "{}", and what is left out is
+ * as by default. Lengths, directions and signs are as in tetsoup/types.h: tets are positive, boundary triangles
  * counter-clockwise from outside. */
 #ifndef TETSOUP_TETSOUP_C_H
 #define TETSOUP_TETSOUP_C_H
@@ -187,8 +187,8 @@ tetsoup_status tetsoup_model_report(const tetsoup_model* model, const char** jso
 
 /* JSON: [{"name": "msh", "summary": "...", "extension": ".msh"}, ...] */
 tetsoup_status tetsoup_format_list(const char** json);
-/* JSON: [{"name": "mujoco", "title": "MuJoCo", "summary": "...", "extension": "...", "usage": "..."}, ...]; in the usage
- * {mesh}, {stem} and {scene} stand for names of files. */
+/* JSON: [{"name": "mujoco", "title": "MuJoCo", "summary": "...", "extension": "...", "usage": "..."}, ...]; in the
+ * usage {mesh}, {stem} and {scene} stand for names of files. */
 tetsoup_status tetsoup_engine_list(const char** json);
 /* Writes files; `format` by its name in the list, or NULL: by the path's extension. JSON: the files' paths. */
 tetsoup_status tetsoup_model_write(const tetsoup_model* model, const char* path, const char* format, const char** json);
@@ -229,7 +229,8 @@ tetsoup_status tetsoup_simulation_step(tetsoup_simulation* simulation, double se
 
 tetsoup_status tetsoup_simulation_body_count(const tetsoup_simulation* simulation, size_t* count);
 /* (V, 3); both views hold as long as the simulation, and show every step. */
-tetsoup_status tetsoup_simulation_positions(const tetsoup_simulation* simulation, size_t body, tetsoup_floats* positions);
+tetsoup_status tetsoup_simulation_positions(const tetsoup_simulation* simulation, size_t body,
+                                            tetsoup_floats* positions);
 tetsoup_status tetsoup_simulation_velocities(const tetsoup_simulation* simulation, size_t body,
                                              tetsoup_floats* velocities);
 /* Puts a body elsewhere: as many vertices as it has, xyz each; velocities are kept. */
@@ -249,7 +250,8 @@ tetsoup_status tetsoup_simulation_surface(tetsoup_simulation* simulation, size_t
 /* Of all positions and velocities, to the bit: the same on every machine, and in the browser. */
 tetsoup_status tetsoup_simulation_state_hash(const tetsoup_simulation* simulation, uint64_t* hash);
 /* JSON: "time", "tet_count", "contacts", "touching", "substeps", "clamped", "left_out", "loose_vertices", "parts",
- * "energy", "bodies": [{"name", "vertex_count", "tet_count", "make"}]; bodies of equal "make" share tets and triangles. */
+ * "energy", "bodies": [{"name", "vertex_count", "tet_count", "make"}]; bodies of equal "make" share tets and triangles.
+ */
 tetsoup_status tetsoup_simulation_report(const tetsoup_simulation* simulation, const char** json);
 void tetsoup_simulation_destroy(tetsoup_simulation* simulation);
 
