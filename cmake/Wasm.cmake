@@ -3,6 +3,10 @@
 # 128-bit SIMD and exceptions of WebAssembly itself, which every browser has had for years.
 add_compile_options(-msimd128 -fwasm-exceptions)
 add_link_options(-fwasm-exceptions)
+# Grids and meshes take what they need, up to what every browser gives.
+add_link_options(-sALLOW_MEMORY_GROWTH -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=2GB)
+# Debian's Emscripten needs Debian's JavaScript packages, which a Node.js from elsewhere does not look for.
+set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
 if(TETSOUP_POOL)
   add_compile_options(-pthread)
   add_link_options(-pthread)
