@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.h"
@@ -26,6 +27,15 @@ int core_count() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+struct Loop {
+  std::int64_t chunks = 0;
+  void (*run)(const void*, std::int64_t) = nullptr;
+  const void* context = nullptr;
+};
+
+/// A loop is open from the moment its chunks may be taken until its caller has found none left. Who helps counts
+/// itself in before it looks whether the loop is open, and the caller closes it before it looks who is in: so nobody
+/// works on a loop that is over. All atomics are sequentially consistent for that.
 class Pool {
  public:
   static Pool& instance() {
@@ -34,63 +44,44 @@ class Pool {
   }
 
   ~Pool() {
-    {
-      const std::lock_guard lock(mutex_);
-      ends_ = true;
-      ++loops_;
-    }
-    begun_.notify_all();
+    ends_ = true;
+    wake();
     for (std::thread& thread : threads_) thread.join();
   }
 
   void limit(int threads) { limit_ = threads; }
   int size() const { return limit_ > 0 ? std::min(limit_.load(), core_count()) : core_count(); }
 
-  void run(std::int64_t chunks, void (*run)(const void*, std::int64_t), const void* context) {
+  void run(const Loop& loop) {
     std::unique_lock mine(callers_, std::defer_lock);
-    if (chunks < 2 || size() < 2 || t_in_loop || !mine.try_lock()) {
-      for (std::int64_t chunk = 0; chunk < chunks; ++chunk) run(context, chunk);
+    if (loop.chunks < 2 || size() < 2 || t_in_loop || !mine.try_lock()) {
+      for (std::int64_t chunk = 0; chunk < loop.chunks; ++chunk) loop.run(loop.context, chunk);
       return;
     }
-    open(chunks, run, context);
+    while (static_cast<int>(threads_.size()) < size() - 1)
+      threads_.emplace_back([this, number = static_cast<int>(threads_.size())] { work(number); });
+    loop_ = loop;
+    next_ = 0;
+    open_ = ++loops_;
+    if (sleepers_ > 0) wake();
     take_chunks();
-    close();
+    open_ = 0;
+    while (inside_ > 0) std::this_thread::yield();
     if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   }
 
  private:
-  void open(std::int64_t chunks, void (*run)(const void*, std::int64_t), const void* context) {
-    {
-      const std::lock_guard lock(mutex_);
-      while (static_cast<int>(threads_.size()) < size() - 1)
-        threads_.emplace_back([this, number = static_cast<int>(threads_.size())] { work(number); });
-      run_ = run;
-      context_ = context;
-      chunks_ = chunks;
-      next_ = 0;
-      is_open_ = true;
-      ++loops_;
-    }
+  void wake() {
+    { const std::lock_guard lock(mutex_); }  // who is about to sleep sleeps, or has seen the change
     begun_.notify_all();
-  }
-
-  /// Nobody comes in any more, and those who are in leave.
-  void close() {
-    std::unique_lock lock(mutex_);
-    is_open_ = false;
-    lock.unlock();
-    for (int turn = 0; turn < kTurns && inside_ > 0; ++turn) {
-    }
-    lock.lock();
-    left_.wait(lock, [this] { return inside_ == 0; });
   }
 
   void take_chunks() {
     t_in_loop = true;
     try {
-      for (std::int64_t chunk = next_++; chunk < chunks_; chunk = next_++) run_(context_, chunk);
+      for (std::int64_t chunk = next_++; chunk < loop_.chunks; chunk = next_++) loop_.run(loop_.context, chunk);
     } catch (...) {
-      next_ = chunks_;
+      next_ = loop_.chunks;
       const std::lock_guard lock(mutex_);
       if (!thrown_) thrown_ = std::current_exception();
     }
@@ -99,33 +90,36 @@ class Pool {
 
   void work(int number) {
     std::uint64_t seen = 0;
-    while (true) {
-      for (int turn = 0; turn < kTurns && loops_ == seen; ++turn) {
+    const auto is_news = [&] {
+      const std::uint64_t open = open_;
+      return ends_ || (open != 0 && open != seen);
+    };
+    while (!ends_) {
+      for (int turn = 0; turn < kTurns && !is_news(); ++turn) {
       }
-      std::unique_lock lock(mutex_);
-      begun_.wait(lock, [&] { return loops_ != seen; });
-      seen = loops_;
-      if (ends_) return;
-      if (!is_open_ || number >= size() - 1) continue;
+      if (!is_news()) {
+        std::unique_lock lock(mutex_);
+        ++sleepers_;
+        begun_.wait(lock, is_news);
+        --sleepers_;
+      }
       ++inside_;
-      lock.unlock();
-      take_chunks();
-      lock.lock();
-      if (--inside_ == 0) left_.notify_one();
+      const std::uint64_t open = open_;
+      if (open != 0 && open != seen && number < size() - 1) take_chunks();
+      if (open != 0) seen = open;
+      --inside_;
     }
   }
 
   std::mutex callers_;  ///< Held by the one whose loop it is.
-  std::mutex mutex_;    ///< Of all below but what is atomic.
-  std::condition_variable begun_, left_;
-  std::vector<std::thread> threads_;
-  std::atomic<std::uint64_t> loops_{0};
-  std::atomic<int> inside_{0}, limit_{0};
+  Loop loop_;           ///< Changes only while it is closed and nobody is in.
+  std::atomic<std::uint64_t> loops_{0}, open_{0};
   std::atomic<std::int64_t> next_{0};
-  bool is_open_ = false, ends_ = false;
-  std::int64_t chunks_ = 0;
-  void (*run_)(const void*, std::int64_t) = nullptr;
-  const void* context_ = nullptr;
+  std::atomic<int> inside_{0}, sleepers_{0}, limit_{0};
+  std::atomic<bool> ends_{false};
+  std::mutex mutex_;  ///< Of sleeping, and of what was thrown.
+  std::condition_variable begun_;
+  std::vector<std::thread> threads_;
   std::exception_ptr thrown_;
 };
 
@@ -133,7 +127,7 @@ class Pool {
 
 void run_chunks_in_pool(std::int64_t chunks, void (*run)(const void* context, std::int64_t chunk),
                         const void* context) {
-  Pool::instance().run(chunks, run, context);
+  Pool::instance().run({chunks, run, context});
 }
 
 void set_thread_count(int threads) {
