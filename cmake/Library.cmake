@@ -7,6 +7,8 @@ function(tetsoup_set_warnings target)
   target_compile_options(${target} PRIVATE
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
     $<$<AND:$<BOOL:${TETSOUP_PCH}>,$<CXX_COMPILER_ID:GNU>>:-Wno-array-bounds;-Wno-stringop-overflow>)
+  # There sizes have 32 bits, and whatever they count fits, since each takes memory.
+  target_compile_options(${target} PRIVATE $<$<BOOL:${EMSCRIPTEN}>:-Wno-shorten-64-to-32>)
   # Same bits on every instruction set: no contraction of a * b + c. The other two let loops with selects be vectorised and
   # change no result.
   target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -fno-trapping-math)

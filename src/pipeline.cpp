@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "base/require.h"
 #include "tetsoup/tetsoup.h"
@@ -52,7 +53,9 @@ std::size_t grid_memory(const GridFrame& frame) {
   // which as much is expected as the box has surface. Measured on the models; soups that fill their box need more.
   constexpr double kBytesPerVoxel = 2.5, kBytesPerSurfaceVoxel = 120;
   const double x = frame.size[0], y = frame.size[1], z = frame.size[2];
-  return static_cast<std::size_t>(kBytesPerVoxel * x * y * z + kBytesPerSurfaceVoxel * 2 * (x * y + y * z + z * x));
+  const double bytes = kBytesPerVoxel * x * y * z + kBytesPerSurfaceVoxel * 2 * (x * y + y * z + z * x);
+  constexpr auto kMost = std::numeric_limits<std::size_t>::max();  // less than 4096^3 voxels take, with 32 bits
+  return bytes < static_cast<double>(kMost) ? static_cast<std::size_t>(bytes) : kMost;
 }
 
 Pipeline::Pipeline(const TriangleSoup& soup, const Progress& progress) {

@@ -2,7 +2,7 @@
 # header it names.
 
 # The flow. A layer sees the public headers of itself and of what stands before it, and its own private headers.
-set(layers soup distance pseudo_volume lattice smooth quality readiness embed regions simulate pipeline io scene)
+set(layers soup distance pseudo_volume lattice smooth quality readiness embed regions simulate pipeline io scene report c)
 # Public headers of a layer that has several.
 set(io_headers tet_model engines animation)
 # Public headers without a layer; everybody sees them. They see each other.
@@ -52,6 +52,8 @@ function(include_layer_of out path)
     set(layer outside)
   elseif(path MATCHES "^(include/tetsoup|src)/tetsoup\\.(h|cpp)$")
     set(layer pipeline)
+  elseif(path STREQUAL "include/tetsoup/tetsoup_c.h")
+    set(layer c)
   elseif(path MATCHES "^(include/tetsoup|src)/([a-z_]+)(/|\\.h$|\\.cpp$)")
     set(name ${CMAKE_MATCH_2})
     if(name IN_LIST common_headers OR name IN_LIST common_folders)
@@ -71,13 +73,15 @@ function(include_system_complaint out path layer header)
   set(complaint "")
   if(header MATCHES "^(tetsoup|base|kernel)/")
     set(complaint "our own headers are included with quotes")
-  elseif(layer MATCHES "^(io|scene)$" AND path MATCHES "^src/" OR layer STREQUAL "outside")
+  elseif(layer MATCHES "^(io|scene|report|c)$" AND path MATCHES "^src/" OR layer STREQUAL "outside")
     # No further rule.
+  elseif(layer STREQUAL "c" AND header MATCHES "^std(def|int)\\.h$")
+    # C's own.
   elseif(header MATCHES "^(tbb|oneapi|hwy|Eigen|unsupported)/" AND path MATCHES "^src/")
     # In its home, as seen above.
   elseif(header MATCHES "[/.]")
     set(complaint "only standard C++ headers here")
-  elseif(header MATCHES "^(iostream|fstream|filesystem)$" AND NOT layer MATCHES "^(io|scene)$")
+  elseif(header MATCHES "^(iostream|fstream|filesystem)$" AND NOT layer MATCHES "^(io|scene|report|c)$")
     set(complaint "the core reads no files and prints nothing")
   endif()
   set(${out} "${complaint}" PARENT_SCOPE)
@@ -95,9 +99,11 @@ function(include_own_complaint out path layer header)
     elseif(other STREQUAL "common" OR other STREQUAL layer OR layer STREQUAL "outside")
       # Seen by everybody; its own; users see all.
     elseif(other STREQUAL "samples")
-      if(NOT layer STREQUAL "scene")
-        set(complaint "samples serve scenes, tests, apps, benches and examples only")
+      if(NOT layer MATCHES "^(scene|c)$")
+        set(complaint "samples serve scenes, C, tests, apps, benches and examples only")
       endif()
+    elseif(path STREQUAL "include/tetsoup/tetsoup.h" AND other STREQUAL "c")
+      # What a C compiler sees instead of the rest.
     elseif(layer MATCHES "^(common|samples)$" OR other_position GREATER position)
       set(complaint "${layer} stands before ${other} in the flow")
     endif()

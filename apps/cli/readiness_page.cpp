@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "arguments.h"
 #include "options.h"
@@ -48,24 +47,6 @@ std::string describe_readiness(const Readiness& readiness, const Material& mater
              "{:.4g} kg; explicit time steps up to {:.3g} s are stable.\n",
              material.density, material.young, material.poisson, material.metres_per_unit, readiness.mass,
              readiness.stable_time_step);
-}
-
-nlohmann::ordered_json readiness_json(const Readiness& readiness, const Material& material) {
-  nlohmann::ordered_json checks = nlohmann::ordered_json::object();
-  for (const ReadinessCheck& check : readiness.checks)
-    checks[std::string(check.name)] = {{"value", check.value},
-                                       {check.at_least ? "at_least" : "at_most", check.limit},
-                                       {"passed", check.passed},
-                                       {"advice", check.passed ? "" : check.advice}};
-  return {{"passed", readiness.passed},
-          {"checks", checks},
-          {"mass_kg", readiness.mass},
-          {"stable_time_step_s", readiness.stable_time_step},
-          {"material",
-           {{"density", material.density},
-            {"young", material.young},
-            {"poisson", material.poisson},
-            {"metres_per_unit", material.metres_per_unit}}}};
 }
 
 }  // namespace tetsoup::cli

@@ -16,9 +16,6 @@ std::string soup_report_json(const std::string& input, const SoupReport& report,
 std::string tets_report_json(const std::string& input, const Quality& quality, const Readiness& readiness,
                              const Material& material);
 
-/// "closed", "open", "soup" or "empty", in reports and in texts.
-const char* class_name(SoupClass kind);
-
 /// "object", "group" or "material".
 const char* kind_name(PartKind kind);
 

@@ -36,6 +36,8 @@ TriangleSoup read_soup(const std::filesystem::path& path);
 /// @throws IoError  as read_soup() does, or if the names, repeated for every part, took far more than the file.
 RenderMesh read_render_mesh(const std::filesystem::path& path);
 
+/// Triangles without names; triangles_of() gives the soup again.
+RenderMesh render_mesh_of(const TriangleSoup& soup);
 /// Its faces cut into fans, as read_soup() does.
 TriangleSoup triangles_of(const RenderMesh& mesh);
 /// The face of every triangle of triangles_of().
@@ -58,6 +60,8 @@ void write_render_mesh(const std::filesystem::path& path, const RenderMesh& mesh
 /// The same from memory; `name` stands for the path in errors. External buffers of a .gltf are not followed.
 TriangleSoup parse_soup(std::span<const std::byte> bytes, SoupFormat format, std::string_view name);
 RenderMesh parse_render_mesh(std::span<const std::byte> bytes, SoupFormat format, std::string_view name);
+/// The same with the format told as read_soup() tells it, the extension being that of the name.
+RenderMesh parse_render_mesh(std::span<const std::byte> bytes, std::string_view name);
 
 enum class SurfaceFormat { Obj, StlBinary, Ply };
 

@@ -47,6 +47,13 @@ struct Quality {
 /// Cost: O(tets log tets).
 Quality measure_quality(const TetMesh& mesh);
 
+/// One tet, for colouring; 0 where it is invalid or has no volume.
+struct TetQuality {
+  float mean_ratio = 0;    ///< As above.
+  float min_dihedral = 0;  ///< Smallest of its six angles, radians.
+};
+std::vector<TetQuality> measure_tets(const TetMesh& mesh);
+
 /// The mesh's outer and inner boundary triangles (faces of exactly one tet), counter-clockwise from outside a positive
 /// tet, indices into the mesh's vertices, in the order of the tets. Invalid tets have none.
 std::vector<Triangle> boundary_triangles(const TetMesh& mesh);

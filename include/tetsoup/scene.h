@@ -126,6 +126,14 @@ struct Scene {
 Scene read_scene(const std::filesystem::path& path);
 /// The same from memory; `name` stands for the path in errors.
 Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name = "scene");
+/// Parts of a scene that stand alone: JSON with the keys of a body's "mesh", of the scene itself as far as they are
+/// SimulationOptions, and of a body's "material" and "place".
+/// @throws InvalidInput  if it is not that: the text names line and column, or the key and what it may be.
+MeshOptions parse_mesh_options(std::string_view text);
+SimulationOptions parse_simulation_options(std::string_view text);
+SimMaterial parse_material(std::string_view text);
+Pose parse_place(std::string_view text);
+
 /// JSON that parse_scene() gives back as this scene; what is as by default is left out.
 std::string scene_text(const Scene& scene);
 /// @throws InvalidInput  if a number is out of range or things do not go together; the text names the key by its path.

@@ -3,8 +3,12 @@
 //   TriangleSoup -> clean_soup -> unsigned_distance -> classify_volume -> fill_lattice -> smooth_tets -> TetMesh
 //                   soup.h        distance.h           pseudo_volume.h    lattice.h       smooth.h
 //
-// mesh_soup() is all of it in one call; Pipeline keeps what a changed option does not touch.
+// mesh_soup() is all of it in one call; Pipeline keeps what a changed option does not touch. C sees tetsoup_c.h.
 #pragma once
+
+#ifndef __cplusplus
+#include "tetsoup/tetsoup_c.h"
+#else
 
 #include "tetsoup/error.h"
 #include "tetsoup/progress.h"
@@ -31,3 +35,5 @@ namespace tetsoup {
 TetMesh mesh_soup(const TriangleSoup& soup, const MeshOptions& options = {}, const Progress& progress = {});
 
 }  // namespace tetsoup
+
+#endif

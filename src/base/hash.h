@@ -2,8 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 namespace tetsoup {
+
+/// The number's own bits; std::bit_cast, which libc++ 14 has not.
+inline std::uint32_t bits_of(float value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
 
 class WordHash {
  public:

@@ -1,9 +1,9 @@
 #include "base/merge_vertices.h"
 
 #include <algorithm>
-#include <bit>
 #include <tuple>
 
+#include "base/hash.h"
 #include "base/radix_sort.h"
 #include "base/vec.h"
 
@@ -25,7 +25,7 @@ Vec3 without_negative_zero(const Vec3& v) {
 
 std::uint32_t ordered_bits(float coordinate) {
   constexpr std::uint32_t kSign = 0x80000000U;
-  const auto bits = std::bit_cast<std::uint32_t>(coordinate + 0.0F);
+  const auto bits = bits_of(coordinate + 0.0F);
   return (bits & kSign) != 0 ? ~bits : bits | kSign;
 }
 

@@ -9,9 +9,10 @@ namespace tetsoup {
 namespace {
 
 constexpr int kDefaultVoxels = 128;
-constexpr int kMaxVoxels = 4096;           ///< Along the longest axis: float resolves 2^-11 of a voxel there.
-constexpr double kMaxVoxelCount = 1.1e12;  ///< 2^40: what index arithmetic is tested for.
-constexpr int kPad = 2;                    ///< Voxels; one lets rays start outside, two give the first a predecessor.
+constexpr int kMaxVoxels = 4096;  ///< Along the longest axis: float resolves 2^-11 of a voxel there.
+constexpr double kMaxVoxelCount = sizeof(std::size_t) > 4 ? 1.1e12 : 2147483648.0;  ///< 2^40: what index arithmetic is
+                                                                                    ///< tested for.
+constexpr int kPad = 2;  ///< Voxels; one lets rays start outside, two give the first a predecessor.
 /// Smallest voxel edge as a share of the largest coordinate: 64 steps of single precision.
 constexpr double kFinestRelativeVoxel = 0x1p-17;
 constexpr double kFinestVoxel = 1e-33;  ///< Keeps results away from float's subnormal numbers.
@@ -65,8 +66,8 @@ GridFrame make_grid(const CleanSoup& soup, const DistanceOptions& options) {
     const double voxels = std::max(1.0, std::ceil(along[axis] / h * (1 - 1e-12)));
     frame.size[axis] = static_cast<int>(voxels) + 2 * kPad;
   }
-  require(static_cast<double>(frame.voxel_count()) <= kMaxVoxelCount, "voxels", frame.voxel_count(),
-          "at most 2^40 in all");
+  const double count = 1.0 * frame.size[0] * frame.size[1] * frame.size[2];
+  require(count <= kMaxVoxelCount, "voxels", count, "at most 2^40 in all, or 2^31 where addresses have 32 bits");
   const auto first_centre = [&](double lo, double hi, int size) { return (lo + hi) / 2 - (size - 1) * h / 2; };
   frame.origin = {first_centre(box.lo.x, box.hi.x, frame.size[0]), first_centre(box.lo.y, box.hi.y, frame.size[1]),
                   first_centre(box.lo.z, box.hi.z, frame.size[2])};

@@ -1,9 +1,8 @@
-#include <zlib.h>
-
 #include <algorithm>
 #include <limits>
 
 #include "io/npz.h"
+#include "io/crc32.h"
 #include "io/number_text.h"
 #include "io/raw_numbers.h"
 #include "io/utf8.h"
@@ -33,13 +32,6 @@ std::string npy_header(const std::string& type, std::initializer_list<std::size_
   return header + text;
 }
 
-/// CRC-32 of both pieces. An empty one may have no address, which zlib takes for a wish to start anew.
-std::uint32_t checksum_of(std::string_view header, std::string_view bytes) {
-  uLong sum = crc32_z(0, reinterpret_cast<const Bytef*>(header.data()), header.size());
-  if (!bytes.empty()) sum = crc32_z(sum, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-  return static_cast<std::uint32_t>(sum);
-}
-
 /// What a member's own header and the directory's entry have in common: from the version needed to the extra length.
 std::string member_facts(std::uint32_t checksum, std::size_t size, std::size_t name_size) {
   constexpr std::uint16_t kVersion = 20, kUtf8Name = 0x800, kStored = 0, kMidnight = 0, kFirstOfJanuary1980 = 0x21;
@@ -62,7 +54,7 @@ void NpzWriter::add_array(std::string_view name, const std::string& type, std::i
   const std::string file_name = std::string(name) + ".npy", header = npy_header(type, shape);
   if (header.size() + bytes.size() > kMostBytes || bytes_.size() > kMostBytes)
     throw IoError("array '" + std::string(name) + "': more than the 4 GB that a .npz file can hold");
-  const std::string facts = member_facts(checksum_of(header, bytes), header.size() + bytes.size(), file_name.size());
+  const std::string facts = member_facts(crc32(bytes, crc32(header)), header.size() + bytes.size(), file_name.size());
   append_raw(directory_, kEntry);
   append_raw(directory_, std::uint16_t{20});
   directory_ += facts;

@@ -1,5 +1,6 @@
 #include "io/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +11,32 @@ namespace tetsoup {
 
 namespace {
 
+/// As printf writes it, but for commas.
+std::string printed(const char* format, int precision, double value) {
+  std::string text(512, '\0');  // 309 digits before the point at most
+  text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), format, precision, value)));
+  for (char& c : text)
+    if (c == ',') c = '.';
+  return text;
+}
+
+/// Fixed notation unless the other is shorter, as std::to_chars() has it.
+template <class Real, class Read>
+void append_least(std::string& text, Real real, const Read& read) {
+  const auto value = static_cast<double>(real);
+  if (!std::isfinite(value) || value == 0) {
+    text += printed("%.*g", 1, value);
+    return;
+  }
+  int digits = 1;
+  std::string scientific = printed("%.*e", 0, value);
+  while (digits < std::numeric_limits<Real>::max_digits10 && read(scientific.c_str()) != real)
+    scientific = printed("%.*e", digits++, value);
+  const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
+  const std::string fixed = printed("%.*f", std::max(0, digits - 1 - exponent), value);
+  text += fixed.size() <= scientific.size() ? fixed : scientific;
+}
+
 // libc++ before 14 has neither direction for floating point; there the C library serves, which the locale may confuse.
 #ifdef __cpp_lib_to_chars
 
@@ -17,11 +44,6 @@ template <class Real>
 void append_shortest(std::string& text, Real value) {
   char digits[48];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
-void append_digits(std::string& text, double value, int count) {
-  char digits[48];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, count).ptr);
 }
 
 float out_of_range_value(std::string_view word) {
@@ -43,17 +65,11 @@ bool parse_plain(std::string_view word, float& value) {
 
 #else
 
-void append_digits(std::string& text, double value, int count) {
-  char digits[48];
-  const int length = std::snprintf(digits, sizeof digits, "%.*g", count, value);
-  for (char* c = digits; c != digits + length; ++c)
-    if (*c == ',') *c = '.';
-  text.append(digits, static_cast<std::size_t>(length));
+void append_shortest(std::string& text, double value) {
+  append_number_slowly(text, value);
 }
-
-template <class Real>
-void append_shortest(std::string& text, Real value) {
-  append_digits(text, static_cast<double>(value), std::numeric_limits<Real>::max_digits10);
+void append_shortest(std::string& text, float value) {
+  append_float_slowly(text, value);
 }
 
 bool parse_plain(std::string_view word, float& value) {
@@ -67,6 +83,23 @@ bool parse_plain(std::string_view word, float& value) {
 #endif
 
 }  // namespace
+
+void append_digits(std::string& text, double value, int count) {
+#ifdef __cpp_lib_to_chars
+  char digits[48];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, count).ptr);
+#else
+  text += printed("%.*g", count, value);
+#endif
+}
+
+void append_number_slowly(std::string& text, double value) {
+  append_least(text, value, [](const char* word) { return std::strtod(word, nullptr); });
+}
+
+void append_float_slowly(std::string& text, float value) {
+  append_least(text, value, [](const char* word) { return std::strtof(word, nullptr); });
+}
 
 void append_number(std::string& text, double value) {
   append_shortest(text, value);

@@ -23,6 +23,14 @@ void append_number_within(std::string& text, double value, std::size_t most);
 /// The float's own shortest decimals, for files whose readers read floats.
 void append_float(std::string& text, float value);
 
+/// Rounded to so many digits, as printf's %g writes it.
+void append_digits(std::string& text, double value, int count);
+
+/// append_number() and append_float() where the standard library cannot do it, to the same characters: the C library,
+/// which the locale may confuse, is asked for more and more digits.
+void append_number_slowly(std::string& text, double value);
+void append_float_slowly(std::string& text, float value);
+
 template <std::integral Integer>
 void append_number(std::string& text, Integer value) {
   char digits[24];

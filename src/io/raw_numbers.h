@@ -23,7 +23,9 @@ Number load_raw(std::string_view bytes, ByteOrder order = ByteOrder::Little) {
   std::array<char, sizeof(Number)> raw;
   std::copy_n(bytes.data(), raw.size(), raw.begin());
   if (order == ByteOrder::Big) std::reverse(raw.begin(), raw.end());
-  return std::bit_cast<Number>(raw);
+  Number number;
+  std::memcpy(&number, raw.data(), sizeof number);
+  return number;
 }
 
 /// Nearest float; infinite beyond its range, where a plain conversion is undefined.

@@ -120,6 +120,12 @@ RenderMesh parse_render_mesh(std::span<const std::byte> bytes, SoupFormat format
   return readers::parse({bytes, name}, format, {}, MeshSink(name, bytes.size()));
 }
 
+RenderMesh parse_render_mesh(std::span<const std::byte> bytes, std::string_view name) {
+  const Source source{bytes, name};
+  if (bytes.empty()) readers::fail(name, "is empty");
+  return readers::parse(source, readers::format_of(name, source), {}, MeshSink(name, bytes.size()));
+}
+
 TriangleSoup read_soup(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = readers::read_whole_file(path);
   const std::string name = path.string();

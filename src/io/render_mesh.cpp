@@ -94,6 +94,17 @@ void append_obj(std::string& text, const RenderMesh& mesh, const ObjPlace& place
   }
 }
 
+RenderMesh render_mesh_of(const TriangleSoup& soup) {
+  RenderMesh mesh;
+  mesh.vertices = soup.vertices;
+  mesh.face_sizes.assign(soup.triangles.size(), 3);
+  mesh.corners.reserve(soup.triangles.size() * 3);
+  for (const Triangle& t : soup.triangles) mesh.corners.insert(mesh.corners.end(), t.begin(), t.end());
+  mesh.parts.emplace_back();
+  mesh.face_parts.assign(soup.triangles.size(), 0);
+  return mesh;
+}
+
 TriangleSoup triangles_of(const RenderMesh& mesh) {
   TriangleSoup soup{mesh.vertices, {}};
   soup.triangles.reserve(mesh.face_sizes.size());

@@ -30,6 +30,19 @@ EdgeLengths measure_edges(const TetCorners& p) {
   return edges;
 }
 
+double mean_ratio(double volume, const EdgeLengths& edges) {
+  return volume > 0 ? 12 * std::pow(3 * volume, 2.0 / 3) / edges.sum_of_squares : 0;
+}
+
+TetQuality measure_tet(const TetCorners& p) {
+  const double volume = signed_volume(p);
+  if (!std::isfinite(volume) || volume == 0) return {};
+  double smallest = std::numbers::pi;
+  for (const double cosine : dihedral_cosines(p))
+    if (!std::isnan(cosine)) smallest = std::min(smallest, std::acos(cosine));
+  return {static_cast<float>(mean_ratio(volume, measure_edges(p))), static_cast<float>(smallest)};
+}
+
 std::size_t dihedral_bin(double angle) {
   const double bins = static_cast<double>(kDihedralBins);
   return static_cast<std::size_t>(std::clamp(angle / std::numbers::pi * bins, 0.0, bins - 1));
@@ -50,7 +63,7 @@ class ShapeTally {
     if (volume == 0) return add_mean_ratio(0);
     const EdgeLengths edges = measure_edges(p);
     quality_.max_edge_ratio = std::max(quality_.max_edge_ratio, edges.longest / edges.shortest);
-    add_mean_ratio(volume > 0 ? 12 * std::pow(3 * volume, 2.0 / 3) / edges.sum_of_squares : 0);
+    add_mean_ratio(mean_ratio(volume, edges));
     if (volume > 0) sum_volume_ += volume, sum_square_ += volume * volume, ++positive_;
     double smallest = std::numbers::pi;
     for (const double cosine : dihedral_cosines(p)) smallest = std::min(smallest, add_angle(std::acos(cosine)));
@@ -123,6 +136,13 @@ Quality measure_quality(const TetMesh& mesh) {
   tally.finish();
   measure_topology(mesh, quality);
   return quality;
+}
+
+std::vector<TetQuality> measure_tets(const TetMesh& mesh) {
+  std::vector<TetQuality> tets(mesh.tets.size());
+  for (std::size_t t = 0; t < tets.size(); ++t)
+    if (is_valid_tet(mesh.tets[t], mesh.vertices.size())) tets[t] = measure_tet(corners_of(mesh, mesh.tets[t]));
+  return tets;
 }
 
 std::vector<Triangle> boundary_triangles(const TetMesh& mesh) {

@@ -40,7 +40,8 @@ void add_frond(TriangleSoup& soup, const Frond& frond, Random& random) {
     const double reach = kReach * std::sqrt(std::sqrt(t)) * (1.12 - t);
     for (const double side : {-1.0, 1.0}) {
       const Vec3d out = normalized(side * frond.sideways + 0.45 * ahead + Vec3d{0, 0, -kHang});
-      const Vec3d along = (out + 0.08 * random.direction()) * (reach * random.between(0.9, 1.05));
+      const double share = random.between(0.9, 1.05);  // first: compilers evaluate operands in different orders
+      const Vec3d along = (out + 0.08 * random.direction()) * (reach * share);
       add_leaf(soup, base + out * 0.012, along, cross(ahead, out) + 0.1 * random.direction(), 0.085);
     }
     // The rib itself, as flakes end to end.

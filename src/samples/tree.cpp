@@ -53,7 +53,10 @@ void add_crown_leaf(TriangleSoup& soup, const Vec3d& at, const Vec3d& outwards, 
   Vec3d along = cross(normal, random.direction());
   // A random direction may be parallel to the normal.
   if (length(along) < 1e-6) along = cross(normal, {normal.y, normal.z, -normal.x});
-  add_leaf(soup, at, normalized(along) * random.between(0.10, 0.15), normal, random.between(0.06, 0.09));
+  // Compilers evaluate arguments in different orders.
+  const double width = random.between(0.06, 0.09);
+  const double reach = random.between(0.10, 0.15);
+  add_leaf(soup, at, normalized(along) * reach, normal, width);
 }
 
 void add_branch_leaf(TriangleSoup& soup, Random& random) {

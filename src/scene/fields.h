@@ -226,20 +226,25 @@ void visit_fields(Visitor& v, PotentialOptions& p) {
 }
 
 template <class Visitor>
+void visit_fields(Visitor& v, SimulationOptions& o) {
+  v("gravity", o.gravity, Range{-1e4, 1e4, "within -1e4 and 1e4 m/s^2"});
+  v("solver", o.solver,
+    Words{Word<Solver>{"implicit", Solver::Implicit}, Word<Solver>{"potentials", Solver::Potentials}});
+  v("substeps", o.substeps, Range{1, 10000, "a whole number from 1 to 10000"});
+  v("max_substeps", o.max_substeps, Range{1, 10000, "a whole number from 1 to 10000"});
+  v("contact_interval", o.contact_interval, Range{1, 10000, "a whole number from 1 to 10000"});
+  v("contacts", o.contacts,
+    Words{Word<Contacts>{"all", Contacts::All}, Word<Contacts>{"between", Contacts::Between},
+          Word<Contacts>{"none", Contacts::None}});
+  v("potentials", o.potentials, Object{});
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, Scene& s) {
   v("title", s.title, Text{});
   v("seconds", s.seconds, kTimeRange);
   v("fps", s.fps, Range{1, 1000, "1 to 1000"});
-  v("gravity", s.simulation.gravity, Range{-1e4, 1e4, "within -1e4 and 1e4 m/s^2"});
-  v("solver", s.simulation.solver,
-    Words{Word<Solver>{"implicit", Solver::Implicit}, Word<Solver>{"potentials", Solver::Potentials}});
-  v("substeps", s.simulation.substeps, Range{1, 10000, "a whole number from 1 to 10000"});
-  v("max_substeps", s.simulation.max_substeps, Range{1, 10000, "a whole number from 1 to 10000"});
-  v("contact_interval", s.simulation.contact_interval, Range{1, 10000, "a whole number from 1 to 10000"});
-  v("contacts", s.simulation.contacts,
-    Words{Word<Contacts>{"all", Contacts::All}, Word<Contacts>{"between", Contacts::Between},
-          Word<Contacts>{"none", Contacts::None}});
-  v("potentials", s.simulation.potentials, Object{});
+  visit_fields(v, s.simulation);
   v("bodies", s.bodies, Objects{});
   v("obstacles", s.obstacles, Objects{});
 }

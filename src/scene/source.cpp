@@ -16,17 +16,6 @@ Vec3d times(const Vec3d& a, const Vec3d& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-RenderMesh plain_surface(const TriangleSoup& soup) {
-  RenderMesh mesh;
-  mesh.vertices = soup.vertices;
-  mesh.face_sizes.assign(soup.triangles.size(), 3);
-  mesh.corners.reserve(soup.triangles.size() * 3);
-  for (const Triangle& t : soup.triangles) mesh.corners.insert(mesh.corners.end(), t.begin(), t.end());
-  mesh.parts.emplace_back();
-  mesh.face_parts.assign(soup.triangles.size(), 0);
-  return mesh;
-}
-
 /// Six sides of quads, fine enough to be seen to bend.
 class BoxSurface {
  public:
@@ -124,9 +113,9 @@ void to_metres(const Unit& unit, std::vector<Vec3>& points) {
 }
 
 RenderMesh make_surface(const SceneSource& source, const std::filesystem::path& folder) {
-  if (source.box) return plain_surface(BoxSurface(*source.box).soup);
+  if (source.box) return render_mesh_of(BoxSurface(*source.box).soup);
   if (!source.sample.empty())
-    return plain_surface(make_sample(source.sample, {.damage = source.damage, .seed = source.seed}));
+    return render_mesh_of(make_sample(source.sample, {.damage = source.damage, .seed = source.seed}));
   return read_render_mesh(folder / source.file);
 }
 

@@ -1,7 +1,6 @@
 #include "simulate/measures.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "base/hash.h"
@@ -103,9 +102,9 @@ std::uint64_t hash_state(const World& world) {
   WordHash hash;
   for (const Part& part : world.parts) {
     for (const kernel::Place& p : world.slice(world.places, part))
-      for (const float v : {p.x, p.y, p.z}) hash.add(std::bit_cast<std::uint32_t>(v));
+      for (const float v : {p.x, p.y, p.z}) hash.add(bits_of(v));
     for (const kernel::Motion& m : world.slice(world.motions, part))
-      for (const float v : {m.x, m.y, m.z}) hash.add(std::bit_cast<std::uint32_t>(v));
+      for (const float v : {m.x, m.y, m.z}) hash.add(bits_of(v));
   }
   return hash.value();
 }

@@ -9,7 +9,7 @@
 
 #include "base/require.h"
 #include "base/vec.h"
-#include "io/preview_view.h"
+#include "io/pictures/preview_view.h"
 #include "tetsoup/io.h"
 #include "tetsoup/quality.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/vec.h"
-#include "io/preview_panels.h"
+#include "io/pictures/preview_panels.h"
 
 namespace tetsoup::animation {
 namespace {

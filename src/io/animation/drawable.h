@@ -8,8 +8,8 @@
 
 #include "io/animation/corner_normals.h"
 #include "io/animation/ground.h"
-#include "io/preview_view.h"
-#include "io/raster.h"
+#include "io/pictures/preview_view.h"
+#include "io/pictures/raster.h"
 
 namespace tetsoup::animation {
 

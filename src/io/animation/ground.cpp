@@ -5,7 +5,7 @@
 
 #include "base/vec.h"
 #include "io/animation/tones.h"
-#include "io/preview_panels.h"
+#include "io/pictures/preview_panels.h"
 
 namespace tetsoup::animation {
 namespace {

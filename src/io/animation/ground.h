@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "io/animation/cast.h"
-#include "io/preview_view.h"
-#include "io/raster.h"
+#include "io/pictures/preview_view.h"
+#include "io/pictures/raster.h"
 
 namespace tetsoup::animation {
 

@@ -7,8 +7,8 @@
 #include "base/parallel.h"
 #include "base/vec.h"
 #include "io/animation/tones.h"
-#include "io/preview_panels.h"
-#include "io/text.h"
+#include "io/pictures/preview_panels.h"
+#include "io/pictures/text.h"
 
 namespace tetsoup::animation {
 namespace {

@@ -7,8 +7,8 @@
 #include "io/animation/cast.h"
 #include "io/animation/drawable.h"
 #include "io/animation/ground.h"
-#include "io/preview_view.h"
-#include "io/raster.h"
+#include "io/pictures/preview_view.h"
+#include "io/pictures/raster.h"
 
 namespace tetsoup::animation {
 

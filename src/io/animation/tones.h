@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "io/raster.h"
+#include "io/pictures/raster.h"
 
 namespace tetsoup::animation::tones {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "io/raster.h"
+#include "io/pictures/raster.h"
 
 struct WebPAnimEncoder;
 

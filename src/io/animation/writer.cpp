@@ -15,7 +15,7 @@
 #include "io/animation/vtu_series.h"
 #include "io/animation/webp_film.h"
 #include "io/file_names.h"
-#include "io/png_writer.h"
+#include "io/pictures/png_writer.h"
 #include "tetsoup/animation.h"
 #include "tetsoup/error.h"
 

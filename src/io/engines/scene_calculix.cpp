@@ -50,11 +50,11 @@ std::vector<std::uint32_t> held_vertices(const TetModel& model) {
     std::vector<std::uint32_t>& list = members[piece];
     if (list.size() < kFewest || is_held[piece]) continue;
     const auto height = [&](std::uint32_t v) { return height_of(vertices[v], model.up); };
-    std::ranges::stable_sort(list, {}, height);
+    std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) { return height(a) < height(b); });
     const double foot = height(list.front()) + kFootShare * (height(list.back()) - height(list.front()));
     for (std::size_t i = 0; i < list.size() && (i < kFewest || height(list[i]) <= foot); ++i) held.push_back(list[i]);
   }
-  std::ranges::sort(held);
+  std::sort(held.begin(), held.end());
   return held;
 }
 

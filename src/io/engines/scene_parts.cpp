@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -10,6 +9,7 @@
 #include "base/tet_geometry.h"
 #include "io/line_writer.h"
 #include "io/model_parts.h"
+#include "io/number_text.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/readiness.h"
 
@@ -177,8 +177,9 @@ std::string filled_script(std::string_view text, const Gaps& gaps) {
 
 std::string brief(double value) {
   constexpr int kDigits = 4;
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, kDigits).ptr};
+  std::string text;
+  append_digits(text, value, kDigits);
+  return text;
 }
 
 std::string quoted_python(std::string_view text) {

@@ -1,4 +1,4 @@
-#include "io/preview_view.h"
+#include "io/pictures/preview_view.h"
 
 #include <algorithm>
 #include <cmath>

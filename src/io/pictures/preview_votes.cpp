@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "io/preview_panels.h"
-#include "io/text.h"
+#include "io/pictures/preview_panels.h"
+#include "io/pictures/text.h"
 
 namespace tetsoup {
 

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "base/require.h"
-#include "io/png_writer.h"
-#include "io/preview_panels.h"
-#include "io/text.h"
+#include "io/pictures/png_writer.h"
+#include "io/pictures/preview_panels.h"
+#include "io/pictures/text.h"
 #include "tetsoup/io.h"
 
 namespace tetsoup {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/tet_geometry.h"
-#include "io/preview_panels.h"
-#include "io/text.h"
+#include "io/pictures/preview_panels.h"
+#include "io/pictures/text.h"
 #include "tetsoup/quality.h"
 
 namespace tetsoup {

@@ -1,4 +1,4 @@
-#include "io/text.h"
+#include "io/pictures/text.h"
 
 #include <array>
 #include <string>

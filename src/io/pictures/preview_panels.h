@@ -1,7 +1,7 @@
 // What stands in the panels of a preview.
 #pragma once
 
-#include "io/preview_view.h"
+#include "io/pictures/preview_view.h"
 #include "tetsoup/pseudo_volume.h"
 
 namespace tetsoup {

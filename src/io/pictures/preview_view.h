@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "io/raster.h"
+#include "io/pictures/raster.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "io/raster.h"
+#include "io/pictures/raster.h"
 
 namespace tetsoup {
 

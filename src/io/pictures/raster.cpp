@@ -1,4 +1,4 @@
-#include "io/raster.h"
+#include "io/pictures/raster.h"
 
 #include <algorithm>
 #include <cmath>

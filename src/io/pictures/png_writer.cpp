@@ -1,4 +1,4 @@
-#include "io/png_writer.h"
+#include "io/pictures/png_writer.h"
 
 #include <png.h>
 

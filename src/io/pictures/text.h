@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "io/raster.h"
+#include "io/pictures/raster.h"
 
 namespace tetsoup {
 
