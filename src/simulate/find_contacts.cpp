@@ -13,7 +13,8 @@
 namespace tetsoup::simulate {
 namespace {
 
-constexpr std::size_t kGrain = 512;      ///< Vertices a task.
+constexpr std::size_t kGrain = 256;      ///< Vertices a task.
+constexpr std::size_t kBoxGrain = 128;   ///< Groups of boxes a task.
 constexpr std::int64_t kHitGrain = 128;  ///< Hits a task.
 /// How far outside a tet's inner faces a vertex may lie, in its heights: edges of bodies stand on edges.
 constexpr double kSlack = 0.02;
@@ -51,6 +52,12 @@ class Search {
                  [&](std::int64_t p, std::int64_t) { body(static_cast<std::size_t>(p)); });
   }
 
+  template <class Tasks, class Body>
+  void for_tasks(const Tasks& tasks, const Body& body) {
+    parallel_for(static_cast<std::int64_t>(tasks.size()), 1, watch_,
+                 [&](std::int64_t i, std::int64_t) { body(tasks[static_cast<std::size_t>(i)]); });
+  }
+
   void touch_obstacles() {
     std::vector<std::vector<ObstacleContact>> found(world_.parts.size());
     for_parts([&](std::size_t p) {
@@ -71,20 +78,37 @@ class Search {
                            static_cast<float>(std::sqrt(obstacle.friction * rest(p).material.friction))};
   }
 
+  /// Some of a part's boxes: groups [begin, end) of the first level.
+  struct BoxTask {
+    std::size_t part = 0, begin = 0, end = 0;
+  };
+
   /// The boxes around the tets of the parts that may meet something.
   void fit_boxes() {
-    for_parts([&](std::size_t p) {
-      if (pairs_.partners[p].empty()) return;
+    std::vector<BoxTask> tasks;
+    for (std::size_t p = 0; p < world_.parts.size(); ++p) {
+      if (pairs_.partners[p].empty()) continue;
       kernel::BoxTree& tree = world_.parts[p].boxes;
-      const std::vector<std::uint32_t>& order = surface(p).tet_order;
-      if (tree.levels.empty()) tree = kernel::make_box_tree(order.size());
-      for (std::size_t i = 0; i < order.size(); ++i) {
-        Bounds box;
-        for (const std::uint32_t v : rest(p).piece.tets[order[i]]) box.add(place(part(p).begin + v));
-        kernel::set_box(tree, i, box.lo, box.hi);
-      }
-      kernel::fit_upper_levels(tree);
+      if (tree.levels.empty()) tree = kernel::make_box_tree(surface(p).tet_order.size());
+      for (std::size_t begin = 0, count = tree.levels[0].size(); begin < count; begin += kBoxGrain)
+        tasks.push_back({p, begin, std::min(begin + kBoxGrain, count)});
+    }
+    for_tasks(tasks, [&](const BoxTask& task) { fit_first_level(task); });
+    for_tasks(tasks, [&](const BoxTask& task) {
+      if (task.begin == 0) kernel::fit_upper_levels(world_.parts[task.part].boxes);
     });
+  }
+
+  void fit_first_level(const BoxTask& task) {
+    Part& owner = world_.parts[task.part];
+    const std::vector<Tet>& tets = rest(task.part).piece.tets;
+    const std::vector<std::uint32_t>& order = surface(task.part).tet_order;
+    const std::size_t end = std::min(task.end * kernel::kBoxGroup, order.size());
+    for (std::size_t i = task.begin * kernel::kBoxGroup; i < end; ++i) {
+      Bounds box;
+      for (const std::uint32_t v : tets[order[i]]) box.add(place(owner.begin + v));
+      kernel::set_box(owner.boxes, i, box.lo, box.hi);
+    }
   }
 
   /// Some of a part's vertices, and the part whose tets they may be in.
@@ -107,9 +131,7 @@ class Search {
     fit_boxes();
     const std::vector<Task> tasks = list_tasks();
     std::vector<std::vector<Hit>> found(tasks.size());
-    parallel_for(static_cast<std::int64_t>(tasks.size()), 1, watch_, [&](std::int64_t i, std::int64_t) {
-      found[static_cast<std::size_t>(i)] = hits_of(tasks[static_cast<std::size_t>(i)]);
-    });
+    for_tasks(tasks, [&](const Task& task) { found[static_cast<std::size_t>(&task - tasks.data())] = hits_of(task); });
     std::vector<Hit> hits;
     for (const auto& some : found) hits.insert(hits.end(), some.begin(), some.end());
     return hits;
@@ -141,6 +163,7 @@ class Search {
       else if (hit->depth > hits.back().depth || (hit->depth == hits.back().depth && hit->tet < hits.back().tet))
         hits.back() = *hit;
     }
+    std::erase_if(hits, [&](const Hit& hit) { return is_between_neighbours(hit); });
     return hits;
   }
 
@@ -168,10 +191,7 @@ class Search {
   }
 
   void add_contacts(const std::vector<Hit>& hits) {
-    for (const Hit& hit : hits) {
-      const Part& owner = part(hit.part);
-      find_near_triangles(world_.surfaces[owner.surface], rest(hit.part).piece, hit.tet);
-    }
+    find_near_triangles_of(hits);
     std::vector<std::optional<Contact>> contacts(hits.size());
     parallel_for(static_cast<std::int64_t>(hits.size()), kHitGrain, watch_, [&](std::int64_t begin, std::int64_t end) {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
@@ -179,6 +199,20 @@ class Search {
     });
     for (const auto& contact : contacts)
       if (contact) world_.contacts.between.push_back(*contact);
+  }
+
+  /// Of the tets that are hit for the first time.
+  void find_near_triangles_of(const std::vector<Hit>& hits) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> missing;  // part, tet
+    for (const Hit& hit : hits)
+      if (surface(hit.part).near[hit.tet].triangles.empty()) missing.emplace_back(hit.part, hit.tet);
+    const auto key = [&](const auto& m) { return std::pair(part(m.first).surface, m.second); };
+    std::sort(missing.begin(), missing.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };
+    missing.erase(std::unique(missing.begin(), missing.end(), is_same), missing.end());
+    for_tasks(missing, [&](const auto& m) {
+      find_near_triangles(world_.surfaces[part(m.first).surface], rest(m.first).piece, m.second);
+    });
   }
 
   /// The side through which the vertex was kept out of the part until now.
@@ -191,18 +225,28 @@ class Search {
     return surface(hit.part).normals[at->triangle];
   }
 
-  std::optional<Contact> contact_of(const Hit& hit) const {
+  /// Where a hit's point is when the part is at rest.
+  Vec3d rest_place_of(const Hit& hit) const {
     const Piece& piece = rest(hit.part).piece;
-    const RestSurface& skin = surface(hit.part);
     Vec3d at;
     for (std::size_t i = 0; i < 4; ++i)
       at += piece.places[piece.tets[hit.tet][i]] * static_cast<double>(hit.weights[i]);
+    return at;
+  }
+
+  /// Whether vertex and point lay near each other at rest.
+  bool is_between_neighbours(const Hit& hit) const {
+    const Part& other = part(world_.owners[hit.vertex]);
+    if (other.body != part(hit.part).body) return false;
+    const Vec3d own = rest(world_.owners[hit.vertex]).piece.places[hit.vertex - other.begin];
+    return squared_length(own - rest_place_of(hit)) < squared_neighbourhood(hit.part);
+  }
+
+  std::optional<Contact> contact_of(const Hit& hit) const {
+    const Piece& piece = rest(hit.part).piece;
+    const RestSurface& skin = surface(hit.part);
     const std::uint32_t other = world_.owners[hit.vertex];
-    if (part(other).body == part(hit.part).body) {
-      const Vec3d own = rest(other).piece.places[hit.vertex - part(other).begin];
-      if (squared_length(own - at) < squared_neighbourhood(hit.part)) return {};
-    }
-    const SurfacePoint point = nearest_surface_point(skin, piece, hit.tet, at, way_in(hit));
+    const SurfacePoint point = nearest_surface_point(skin, piece, hit.tet, rest_place_of(hit), way_in(hit));
     Contact contact{hit.vertex, {}, {}, 0, static_cast<float>(kReach * piece.mean_edge), hit.part, point.triangle};
     for (std::size_t i = 0; i < 3; ++i) {
       contact.corners[i] = part(hit.part).begin + skin.triangles[point.triangle][i];

@@ -132,10 +132,6 @@ std::vector<Piece> split_pieces(const TetMesh& mesh, double scale) {
   return pieces;
 }
 
-bool Rest::is_held() const {
-  return std::any_of(held.begin(), held.end(), [](std::uint8_t h) { return h != 0; });
-}
-
 double Rest::damping_time(double h, double edge) const {
   // A sweep does not reach the balance of a stiff body, and viscosity would keep what is amiss as if it were the
   // strain before: beams sag, and crumple where waves of elasticity and viscosity together pass two edges in a substep.

@@ -31,10 +31,12 @@ struct Rest {
   SimMaterial material;
   std::vector<double> masses;             ///< A quarter of its tets' for every vertex.
   std::vector<std::uint8_t> held;         ///< Pinned vertices; a piece with one has a Rest of its own.
+  std::size_t held_count = 0;             ///< Of them.
   std::size_t padded_count = 0;           ///< Vertices in whole blocks, with at least one of no mass.
   std::vector<std::uint32_t> lanes;       ///< Place of each tet in the batches: batch * kTetLanes + lane.
   std::vector<kernel::TetBatch> batches;  ///< Responses and compliances as `prepare` made them.
-  std::vector<std::size_t> colours;       ///< Ends of runs of batches that share no vertex.
+  /// Ends of runs of batches: one round after the other; runs of a round share no vertex.
+  std::vector<std::vector<std::size_t>> rounds;
   double prepared_for = 0;                ///< Substep, s.
 
   double shear_modulus() const { return material.elastic.young / (2 * (1 + material.elastic.poisson)); }
@@ -47,7 +49,7 @@ struct Rest {
   /// What is taken of the material's damping in substeps of h where edges are so long, s.
   double damping_time(double h, double edge) const;
   double inverse_mass(std::size_t v) const { return held[v] != 0 ? 0 : 1 / masses[v]; }
-  bool is_held() const;
+  bool is_held() const { return held_count > 0; }
 };
 
 Rest make_rest(Piece piece, const SimMaterial& material);
