@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "lattice_shapes.h"
 #include "shapes.h"
 #include "simulate/obstacles.h"
 #include "simulate/rest_surface.h"
+#include "tetsoup/error.h"
 #include "tetsoup/simulate.h"
 
 namespace tetsoup {
@@ -106,6 +108,19 @@ TEST(SimulateContacts, ABodyRestsOnASoupAsOnTheSolidItStandsFor) {
   for (int frame = 0; frame < 200; ++frame) simulation.step(kFrame);
   EXPECT_NEAR(lowest(simulation.positions(body)), 0, 0.03F);  // a voxel is 0.042
   EXPECT_LT(simulation.energy().kinetic, 1e-3);
+}
+
+TEST(SimulateContacts, AnObstacleTooLargeForMemoryIsRefusedWithWhatWouldFit) {
+  Simulation simulation;
+  const TriangleSoup cube = test::make_box({0, 0, 0}, {1, 1, 1});
+  try {
+    simulation.add_obstacle(cube, 4000);
+    ADD_FAILURE() << "4000^3 voxels were accepted";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("voxels = 4000, must be at most 527"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(simulation.add_obstacle(cube, 0), InvalidInput);
+  simulation.add_obstacle(test::make_box({0, 0, 0}, {1, 0.01, 0.01}), 1000);  // 1004 x 14 x 14
 }
 
 TEST(SimulateContacts, AFoldedBodyDoesNotPassThroughItself) {

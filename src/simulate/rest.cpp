@@ -135,12 +135,11 @@ std::vector<Piece> split_pieces(const TetMesh& mesh, double scale) {
 double Rest::damping_time(double h, double edge) const {
   // A sweep does not reach the balance of a stiff body, and viscosity would keep what is amiss as if it were the
   // strain before: beams sag, and crumple where waves of elasticity and viscosity together pass two edges in a substep.
-  constexpr double kEdges = 1;
   constexpr double kAlways = 0.3;  // substeps: no beam crumpled with it
   constexpr double kTried = 12;    // edges in a substep, of those beams
   const double edges = h / wave_time(edge);
   const double least = kAlways * std::min(1.0, std::pow(kTried / edges, 2));
-  return std::min(material.damping_time, h * std::max(least, std::pow(kEdges / edges, 2) - 1));
+  return std::min(material.damping_time, h * std::max(least, std::pow(kMostEdges / edges, 2) - 1));
 }
 
 Rest make_rest(Piece piece, const SimMaterial& material) {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
-#include "base/morton.h"
-#include "base/parallel.h"
 #include "base/tet_faces.h"
 #include "base/vec.h"
 
@@ -83,23 +82,40 @@ Vec3d middle_of(const TetCorners& p) {
   return (p[0] + p[1] + p[2] + p[3]) * 0.25;
 }
 
-void order_tets(RestSurface& surface, const Piece& piece) {
-  constexpr double kCells = 8000;  // that Morton codes tell apart
-  Vec3d lo = piece.places[0], hi = lo;
-  for (const Vec3d& p : piece.places) {
-    lo = min(lo, p);
-    hi = max(hi, p);
+/// Orders items so that every aligned group of the tree, on every level, is near in space: halves across the longest
+/// side, down to a group. The boxes around such groups overlap less than those along a curve.
+void halve(std::span<std::uint32_t> items, const std::vector<Vec3d>& middles) {
+  if (items.size() <= kernel::kBoxGroup) return;
+  Vec3d lo = middles[items[0]], hi = lo;
+  for (const std::uint32_t i : items) {
+    lo = min(lo, middles[i]);
+    hi = max(hi, middles[i]);
   }
-  const double scale = kCells / std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
-  const Progress nobody;
-  StageWatch watch(nobody, "simulate");
-  const auto middle = [&](std::size_t t) { return middle_of(corners_at(piece.places, piece.tets[t])); };
-  const auto entries = morton_order(
-      piece.tets.size(), [&](std::size_t t) { return to_float((middle(t) - lo) * scale); }, watch);
-  surface.middles.resize((entries.size() + kernel::kBoxGroup - 1) / kernel::kBoxGroup);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    surface.tet_order.push_back(entries[i].index);
-    const auto [x, y, z] = to_float(middle(entries[i].index));
+  const Vec3d size = hi - lo;
+  const auto along = [&](std::uint32_t i) {
+    const Vec3d& m = middles[i];
+    return size.x >= size.y && size.x >= size.z ? m.x : size.y >= size.z ? m.y : m.z;
+  };
+  std::size_t group = kernel::kBoxGroup;
+  while (group * kernel::kBoxGroup < items.size()) group *= kernel::kBoxGroup;
+  const std::size_t half = std::max<std::size_t>(1, items.size() / group / 2) * group;
+  const auto middle = items.begin() + static_cast<std::ptrdiff_t>(half);
+  std::nth_element(items.begin(), middle, items.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return std::pair(along(i), i) < std::pair(along(j), j);
+  });
+  halve(items.first(half), middles);
+  halve(items.subspan(half), middles);
+}
+
+void order_tets(RestSurface& surface, const Piece& piece) {
+  std::vector<Vec3d> middles;
+  for (const Tet& tet : piece.tets) middles.push_back(middle_of(corners_at(piece.places, tet)));
+  surface.tet_order.resize(middles.size());
+  std::iota(surface.tet_order.begin(), surface.tet_order.end(), 0U);
+  halve(surface.tet_order, middles);
+  surface.middles.resize((middles.size() + kernel::kBoxGroup - 1) / kernel::kBoxGroup);
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const auto [x, y, z] = to_float(middles[surface.tet_order[i]]);
     kernel::MiddleGroup& group = surface.middles[i / kernel::kBoxGroup];
     const std::size_t place = i % kernel::kBoxGroup;
     group.at[0][place] = x, group.at[1][place] = y, group.at[2][place] = z;

@@ -115,7 +115,7 @@ void solve_springs(World& world, double h) {
   Movers m(world, h);
   for (const Spring& spring : world.springs) {
     const float w = m.inverse_mass(spring.slot);
-    if (spring.removed || !(w > 0)) continue;
+    if (!(spring.stiffness > 0) || !(w > 0)) continue;
     const float share = w / (w + static_cast<float>(1 / (spring.stiffness * h * h)));
     m.move(spring.slot, (V{spring.target.x, spring.target.y, spring.target.z} - m.place(spring.slot)) * share);
   }

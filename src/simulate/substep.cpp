@@ -89,7 +89,7 @@ int count_substeps(const World& world, double dt) {
   const bool implicit = world.options.solver == Solver::Implicit;
   double h = dt / world.options.substeps;
   if (implicit)
-    for (const Rest& rest : world.rests) h = std::min(h, rest.wave_time(rest.piece.mean_edge));
+    for (const Rest& rest : world.rests) h = std::min(h, kMostEdges * rest.wave_time(rest.piece.mean_edge));
   else
     for (const SpringNet& net : world.nets) h = std::min(h, net.stable_time_step);
   const int most = implicit ? std::max(world.options.substeps, world.options.max_substeps) : kMaxSubsteps;
