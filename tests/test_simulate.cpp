@@ -72,22 +72,30 @@ TEST(Simulate, SpansStayWhereTheyAreForAsLongAsTheSimulation) {
   EXPECT_EQ(velocities.data(), moved.velocities(body).data());
 }
 
-TEST(Simulate, MomentaStayWithinRoundingOverTenThousandSubsteps) {
+TEST(Simulate, MomentaStayWithinRoundingOverTenThousandSteps) {
   for (const Solver solver : {Solver::Implicit, Solver::Potentials}) {
     SimulationOptions options = in_space(solver);
-    options.substeps = 100;
+    options.substeps = 1;
     Simulation simulation(options);
+    // As long a step as the potentials take at once; the body stays near, where rounding is fine.
+    constexpr double kStep = 1e-4;
     simulation.add_body(block(), undamped(), {.velocity = {0.2, -0.1, 0.1}, .spin = {2, 1, -3}});
     const Momentum before = simulation.momentum();
-    int substeps = 0;
-    while (substeps < 10000) {
-      simulation.step(kFrame);
-      substeps += simulation.report().substeps;
-    }
+    for (int i = 0; i < 10000; ++i) simulation.step(kStep);
     const Momentum after = simulation.momentum();
     EXPECT_LT(length(after.linear - before.linear), 1e-5 * length(before.linear));
     EXPECT_LT(length(after.angular - before.angular), 1e-4 * length(before.angular));
   }
+}
+
+TEST(Simulate, MomentaStayWithinRoundingOverTenThousandFrames) {
+  Simulation simulation(in_space());
+  simulation.add_body(block(), undamped(), {.velocity = {0.02, -0.01, 0.01}, .spin = {2, 1, -3}});
+  const Momentum before = simulation.momentum();
+  for (int frame = 0; frame < 10000; ++frame) simulation.step(kFrame);
+  const Momentum after = simulation.momentum();
+  EXPECT_LT(length(after.linear - before.linear), 1e-4 * length(before.linear));
+  EXPECT_LT(length(after.angular - before.angular), 1e-3 * length(before.angular));
 }
 
 TEST(Simulate, EnergyDoesNotGrow) {

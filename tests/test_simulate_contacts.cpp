@@ -110,6 +110,42 @@ TEST(SimulateContacts, ABodyRestsOnASoupAsOnTheSolidItStandsFor) {
   EXPECT_LT(simulation.energy().kinetic, 1e-3);
 }
 
+/// Two bars of one cell across, crossed a cell's fifth off the middle: one is held at its ends, the other is pulled over
+/// it at its ends. Faces cross faces, and no vertex is near.
+TEST(SimulateContacts, CrossedBarsDoNotPassThroughEachOther) {
+  constexpr int kCells = 9;
+  constexpr double kCell = 0.1, kLength = kCells * kCell, kPull = 200;  // N
+  SimulationOptions options;
+  options.gravity = {};
+  Simulation simulation(options);
+  const TetMesh mesh = block_mesh({kCells, 1, 1}, kCell);
+  const std::size_t under = simulation.add_body(mesh, rubber(), {.translate = {-kLength / 2, -kCell / 2, 0}});
+  const std::size_t over = simulation.add_body(
+      mesh, rubber(),
+      {.translate = {kCell / 2 + 0.02, -kLength / 2 + 0.02, kCell * 1.05}, .rotate = {0, 0, std::numbers::pi / 2}});
+  const auto is_end = [&](const Vec3& p) { return p.x < 1e-6F || p.x > static_cast<float>(kLength) - 1e-4F; };
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!is_end(mesh.vertices[v])) continue;
+    simulation.pin({under, v});
+    const Vec3d at = to_double(simulation.positions(over)[v]);
+    simulation.add_spring({over, v}, at - Vec3d{0, 0, 1}, kPull / 8);
+  }
+  const auto middle = [&](std::size_t body) {
+    double sum = 0;
+    int count = 0;
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+      if (std::abs(static_cast<double>(mesh.vertices[v].x) - kLength / 2) > 0.6 * kCell) continue;
+      sum += static_cast<double>(simulation.positions(body)[v].z);
+      ++count;
+    }
+    return sum / count;
+  };
+  for (int frame = 0; frame < 180; ++frame) {
+    simulation.step(kFrame);
+    ASSERT_GT(middle(over) - middle(under), 0.7 * kCell) << frame;
+  }
+}
+
 TEST(SimulateContacts, AnObstacleTooLargeForMemoryIsRefusedWithWhatWouldFit) {
   Simulation simulation;
   const TriangleSoup cube = test::make_box({0, 0, 0}, {1, 1, 1});

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/vec.h"
 #include "simulate/contact_constants.h"
+#include "simulate/edge_contacts.h"
 #include "simulate/part_pairs.h"
 #include "simulate/world.h"
 
@@ -31,11 +32,13 @@ class Search {
   Search(World& world, double horizon)
       : world_(world), watch_(nobody_, "simulate"), pairs_(find_part_pairs(world, horizon, watch_)) {}
 
-  void run() {
+  void run(Edges edges) {
     before_ = std::move(world_.contacts.between);
-    world_.contacts = {};
+    world_.contacts.between.clear();
+    world_.contacts.with_obstacles.clear();
     touch_obstacles();
     add_contacts(find_hits());
+    if (edges == Edges::Find) cross_edges();
   }
 
  private:
@@ -117,11 +120,12 @@ class Search {
     Partner other;
     std::size_t begin = 0, end = 0;  ///< Of the other's vertices at its surface.
   };
-  std::vector<Task> list_tasks() const {
+  template <class Count>
+  std::vector<Task> list_tasks(const Count& count_of) const {
     std::vector<Task> tasks;
     for (std::uint32_t p = 0; p < world_.parts.size(); ++p)
       for (const Partner& q : pairs_.partners[p])
-        for (std::size_t begin = 0, count = surface(q.part).vertices.size(); begin < count; begin += kGrain)
+        for (std::size_t begin = 0, count = count_of(p, q.part); begin < count; begin += kGrain)
           tasks.push_back({p, q, begin, std::min(begin + kGrain, count)});
     return tasks;
   }
@@ -129,7 +133,8 @@ class Search {
   /// Part after part; of each, vertices ascending.
   std::vector<Hit> find_hits() {
     fit_boxes();
-    const std::vector<Task> tasks = list_tasks();
+    const std::vector<Task> tasks =
+        list_tasks([&](std::uint32_t, std::uint32_t q) { return surface(q).vertices.size(); });
     std::vector<std::vector<Hit>> found(tasks.size());
     for_tasks(tasks, [&](const Task& task) { found[static_cast<std::size_t>(&task - tasks.data())] = hits_of(task); });
     std::vector<Hit> hits;
@@ -191,7 +196,9 @@ class Search {
   }
 
   void add_contacts(const std::vector<Hit>& hits) {
-    find_near_triangles_of(hits);
+    std::vector<TetOfPart> tets;
+    for (const Hit& hit : hits) tets.emplace_back(hit.part, hit.tet);
+    find_near_triangles_of(tets);
     std::vector<std::optional<Contact>> contacts(hits.size());
     parallel_for(static_cast<std::int64_t>(hits.size()), kHitGrain, watch_, [&](std::int64_t begin, std::int64_t end) {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
@@ -201,11 +208,11 @@ class Search {
       if (contact) world_.contacts.between.push_back(*contact);
   }
 
+  using TetOfPart = std::pair<std::uint32_t, std::uint32_t>;
+
   /// Of the tets that are hit for the first time.
-  void find_near_triangles_of(const std::vector<Hit>& hits) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> missing;  // part, tet
-    for (const Hit& hit : hits)
-      if (surface(hit.part).near[hit.tet].triangles.empty()) missing.emplace_back(hit.part, hit.tet);
+  void find_near_triangles_of(std::vector<TetOfPart> missing) {
+    std::erase_if(missing, [&](const TetOfPart& m) { return !surface(m.first).near[m.second].triangles.empty(); });
     const auto key = [&](const auto& m) { return std::pair(part(m.first).surface, m.second); };
     std::sort(missing.begin(), missing.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
     const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };
@@ -213,6 +220,26 @@ class Search {
     for_tasks(missing, [&](const auto& m) {
       find_near_triangles(world_.surfaces[part(m.first).surface], rest(m.first).piece, m.second);
     });
+  }
+
+  /// Edges of other bodies.
+  void cross_edges() {
+    world_.contacts.across.clear();
+    const std::vector<Task> tasks = list_tasks([&](std::uint32_t p, std::uint32_t q) {
+      return part(p).body != part(q).body ? surface(q).sharp_edges.size() : 0;
+    });
+    std::vector<std::vector<EdgeHit>> found(tasks.size());
+    for_tasks(tasks, [&](const Task& task) {
+      found[static_cast<std::size_t>(&task - tasks.data())] =
+          find_edge_hits(world_, pairs_, task.part, task.other.part, task.begin, task.end);
+    });
+    std::vector<TetOfPart> tets;
+    for (const auto& some : found)
+      for (const EdgeHit& hit : some)
+        for (const EdgePlace& p : {hit.in, hit.out, hit.middle}) tets.emplace_back(hit.part, p.tet);
+    find_near_triangles_of(std::move(tets));
+    for (const auto& some : found)
+      for (const EdgeHit& hit : some) add_edge_contacts(world_, hit);
   }
 
   /// The side through which the vertex was kept out of the part until now.
@@ -266,8 +293,8 @@ class Search {
 
 }  // namespace
 
-void find_contacts(World& world, double horizon) {
-  if (world.options.contacts != Contacts::None) Search(world, horizon).run();
+void find_contacts(World& world, double horizon, Edges edges) {
+  if (world.options.contacts != Contacts::None) Search(world, horizon).run(edges);
 }
 
 }  // namespace tetsoup::simulate

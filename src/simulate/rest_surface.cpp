@@ -122,6 +122,33 @@ void order_tets(RestSurface& surface, const Piece& piece) {
   }
 }
 
+/// Edges that can get into another body with both ends outside: where it is flat or hollow, a body meets others with
+/// its vertices, or with theirs.
+void find_sharp_edges(RestSurface& surface, const Piece& piece) {
+  constexpr double kFlat = 0.7;  // cosine of 45 degrees
+  struct Side {
+    std::array<std::uint32_t, 2> ends;
+    std::uint32_t triangle, opposite;
+  };
+  std::vector<Side> sides;
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Triangle& c = surface.triangles[t];
+      const std::uint32_t a = c[i], b = c[(i + 1) % 3];
+      sides.push_back({{std::min(a, b), std::max(a, b)}, t, c[(i + 2) % 3]});
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::pair(a.ends, a.triangle) < std::pair(b.ends, b.triangle);
+  });
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const Side &a = sides[i - 1], &b = sides[i];
+    if (a.ends != b.ends || (!surface.sharp_edges.empty() && surface.sharp_edges.back() == a.ends)) continue;
+    const Vec3d& normal = surface.normals[a.triangle];
+    const bool is_ridge = dot(piece.places[b.opposite] - piece.places[a.ends[0]], normal) < 0;
+    if (is_ridge && dot(normal, surface.normals[b.triangle]) < kFlat) surface.sharp_edges.push_back(a.ends);
+  }
+}
+
 void fit_triangle_boxes(RestSurface& surface, const Piece& piece) {
   surface.boxes = kernel::make_box_tree(surface.triangles.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -150,6 +177,7 @@ RestSurface make_rest_surface(const Piece& piece) {
                                                          squared_length(c - centre)}))});
   }
   fit_triangle_boxes(surface, piece);
+  find_sharp_edges(surface, piece);
   surface.open_faces.assign(piece.tets.size(), 0);
   for (std::size_t begin = 0; begin < faces.size();) {
     const std::size_t end = face_run_end(faces, begin);
