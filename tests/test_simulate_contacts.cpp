@@ -110,8 +110,8 @@ TEST(SimulateContacts, ABodyRestsOnASoupAsOnTheSolidItStandsFor) {
   EXPECT_LT(simulation.energy().kinetic, 1e-3);
 }
 
-/// Two bars of one cell across, crossed a cell's fifth off the middle: one is held at its ends, the other is pulled over
-/// it at its ends. Faces cross faces, and no vertex is near.
+/// Two bars of one cell across, crossed a cell's fifth off the middle: one is held at its ends, the other is pulled
+/// over it at its ends. Faces cross faces, and no vertex is near.
 TEST(SimulateContacts, CrossedBarsDoNotPassThroughEachOther) {
   constexpr int kCells = 9;
   constexpr double kCell = 0.1, kLength = kCells * kCell, kPull = 200;  // N
@@ -227,6 +227,7 @@ TEST(RestSurface, TheNearestPointOfABlocksSurfaceIsFound) {
   const simulate::Piece piece = simulate::split_pieces(block_mesh({4, 4, 4}, 0.25), 1)[0];
   simulate::RestSurface surface = simulate::make_rest_surface(piece);
   EXPECT_EQ(surface.triangles.size(), 6U * 32U);
+  EXPECT_EQ(surface.sharp_edges.size(), 12U * 4U);  // neither diagonals nor what is between flat cells
   for (std::uint32_t t = 0; t < piece.tets.size(); ++t) {
     simulate::find_near_triangles(surface, piece, t);
     const TetCorners p = simulate::corners_at(piece.places, piece.tets[t]);

@@ -31,10 +31,9 @@ auto at_path(const std::string& path, const Action& action) {
 }
 
 bool any_driven(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const SceneBody& body) {
-                       return std::any_of(body.pins.begin(), body.pins.end(), is_driven<ScenePin>);
-                     });
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const SceneBody& body) {
+    return std::any_of(body.pins.begin(), body.pins.end(), is_driven<ScenePin>);
+  });
 }
 
 /// Vertices that are driven move before every step; a frame is then as many steps as it has searches for contacts.

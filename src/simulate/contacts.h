@@ -23,7 +23,8 @@ struct Contact {
   std::uint32_t triangle = 0;  ///< and its number there.
 };
 
-/// A point of a sharp edge that has got into a part between its ends: as the vertex of a contact, which is the first end.
+/// A point of a sharp edge that has got into a part between its ends: as the vertex of a contact, which is the first
+/// end.
 struct EdgeContact {
   Contact contact;
   std::uint32_t other_end = 0;
@@ -40,15 +41,15 @@ struct ObstacleContact {
 };
 
 struct ContactSet {
-  std::vector<Contact> between;  ///< Ascending by part, then vertex; one for each two.
+  std::vector<Contact> between;     ///< Ascending by part, then vertex; one for each two.
   std::vector<EdgeContact> across;  ///< Edges and other bodies.
   std::vector<ObstacleContact> with_obstacles;
 };
 
 enum class Edges { Find, Keep };
 
-/// Finds what touches, or may touch within `horizon` seconds. Edges are found once a step and then kept: they are slow to
-/// find, and vertices tell of most.
+/// Finds what touches, or may touch within `horizon` seconds. Edges are found once a step and then kept: they are slow
+/// to find, and vertices tell of most.
 void find_contacts(World& world, double horizon, Edges edges);
 
 /// Pushes and rubs, after all parts have moved freely for h.

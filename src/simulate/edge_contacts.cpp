@@ -30,13 +30,14 @@ std::optional<Stretch> stretch_in(const World& world, const Part& part, std::uin
   TetCorners corners;
   const Tet& tet = world.rest_of(part).piece.tets[t];
   for (std::size_t i = 0; i < 4; ++i) corners[i] = to_double(to_vec(world.places[part.begin + tet[i]]));
-  if (!(signed_volume(corners) > 0)) return {};
-  const std::array<Vec3d, 4> gradients = barycentric_gradients(corners);
+  const double six_volumes = 6 * signed_volume(corners);
+  if (!(six_volumes > 0)) return {};
   Stretch s;
   s.tet = t;
   for (std::size_t i = 0; i < 4; ++i) {
-    s.from[i] = dot(gradients[i], a - corners[0]) + (i == 0 ? 1 : 0);
-    s.to[i] = dot(gradients[i], b - corners[0]) + (i == 0 ? 1 : 0);
+    const Vec3d normal = inward_normal(corners, i), &corner = corners[(i + 1) % 4];
+    s.from[i] = dot(normal, a - corner) / six_volumes;
+    s.to[i] = dot(normal, b - corner) / six_volumes;
     if (s.from[i] < 0 && s.to[i] < 0) return {};
     const double zero = s.from[i] / (s.from[i] - s.to[i]);
     if (s.from[i] < 0) s.begin = std::max(s.begin, zero);
@@ -123,7 +124,8 @@ void add_edge_contacts(World& world, const EdgeHit& hit) {
   const auto reach = static_cast<float>(kReach * rest.piece.mean_edge);
   const auto slack = static_cast<float>(kEdgeSlack * rest.piece.mean_edge);
   const auto add = [&](const SurfacePoint& point) {
-    EdgeContact e{{hit.ends[0], {}, {}, friction, reach, hit.part, point.triangle}, hit.ends[1], hit.middle.along, slack};
+    EdgeContact e{
+        {hit.ends[0], {}, {}, friction, reach, hit.part, point.triangle}, hit.ends[1], hit.middle.along, slack};
     for (std::size_t i = 0; i < 3; ++i) {
       e.contact.corners[i] = owner.begin + skin.triangles[point.triangle][i];
       e.contact.weights[i] = static_cast<float>(point.weights[i]);
@@ -136,8 +138,8 @@ void add_edge_contacts(World& world, const EdgeHit& hit) {
     return std::abs(dot(rest.piece.places[skin.triangles[p.triangle][0]] - at, skin.normals[p.triangle]));
   };
   const double most = kAlike * std::min({depth(in), depth(out), depth(middle)});
-  const bool is_ridge = dot(skin.normals[in.triangle], skin.normals[out.triangle]) > kOpposite &&
-                        depth(in) <= most && depth(out) <= most;
+  const bool is_ridge =
+      dot(skin.normals[in.triangle], skin.normals[out.triangle]) > kOpposite && depth(in) <= most && depth(out) <= most;
   if (!is_ridge || in.triangle == out.triangle) return add(middle);
   add(in);
   add(out);

@@ -28,9 +28,9 @@ struct EdgeHit {
 std::vector<EdgeHit> find_edge_hits(const World& world, const PartPairs& pairs, std::uint32_t part, std::uint32_t other,
                                     std::size_t begin, std::size_t end);
 
-/// Over a ridge, where the edge gets in and comes out through two sides of it, both push, which adds up to a push across
-/// both edges [as Heidelberger04 averages normals]. Where it runs through from side to opposite side, the nearest
-/// surface does. The near triangles of the three tets are known.
+/// Over a ridge, where the edge gets in and comes out through two sides of it, both push, which adds up to a push
+/// across both edges [as Heidelberger04 averages normals]. Where it runs through from side to opposite side, the
+/// nearest surface does. The near triangles of the three tets are known.
 void add_edge_contacts(World& world, const EdgeHit& hit);
 
 }  // namespace tetsoup::simulate

@@ -180,16 +180,18 @@ class Search {
       if (owner.begin + tet[i] == vertex) return {};
       corners[i] = to_double(place(owner.begin + tet[i]));
     }
-    if (!(signed_volume(corners) > 0)) return {};
-    const std::array<Vec3d, 4> gradients = barycentric_gradients(corners);
+    const double six_volumes = 6 * signed_volume(corners);
+    if (!(six_volumes > 0)) return {};
     const auto ahead = static_cast<double>(task.other.ahead);
-    const Vec3d from = to_double(place(vertex)) - corners[0];
+    const Vec3d at = to_double(place(vertex));
     Hit hit{vertex, task.part, t, 1, {}};
     for (std::size_t i = 0; i < 4; ++i) {
-      const double b = dot(gradients[i], from) + (i == 0 ? 1 : 0);
+      // Most tets are left at their first or second face, so nothing is divided before.
+      const Vec3d normal = inward_normal(corners, i);
+      const double height = dot(normal, at - corners[(i + 1) % 4]);
       const bool open = (surface(task.part).open_faces[t] >> i & 1U) != 0;
-      if (b < (open ? -ahead * length(gradients[i]) : -kSlack)) return {};
-      hit.weights[i] = static_cast<float>(b);
+      if (height < (open ? -ahead * length(normal) : -kSlack * six_volumes)) return {};
+      hit.weights[i] = static_cast<float>(height / six_volumes);
       hit.depth = std::min(hit.depth, hit.weights[i]);
     }
     return hit;

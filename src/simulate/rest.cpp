@@ -90,11 +90,7 @@ double share_of(double damping_time, double h) {
 std::array<Vec3d, 4> barycentric_gradients(const TetCorners& p) {
   const double scale = 1 / (6 * signed_volume(p));
   std::array<Vec3d, 4> g;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto& f = kTetFaces[i];
-    const Vec3d a = p[static_cast<std::size_t>(f[0])];
-    g[i] = cross(p[static_cast<std::size_t>(f[1])] - a, p[static_cast<std::size_t>(f[2])] - a) * -scale;
-  }
+  for (std::size_t i = 0; i < 4; ++i) g[i] = inward_normal(p, i) * scale;
   return g;
 }
 

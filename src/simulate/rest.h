@@ -41,7 +41,7 @@ struct Rest {
   std::vector<kernel::TetBatch> batches;  ///< Responses and compliances as `prepare` made them.
   /// Ends of runs of batches: one round after the other; runs of a round share no vertex.
   std::vector<std::vector<std::size_t>> rounds;
-  double prepared_for = 0;                ///< Substep, s.
+  double prepared_for = 0;  ///< Substep, s.
 
   double shear_modulus() const { return material.elastic.young / (2 * (1 + material.elastic.poisson)); }
   double lame() const {
@@ -63,6 +63,13 @@ double share_of(double damping_time, double h);
 
 /// Makes the batches' constants for substeps of h.
 void prepare(Rest& rest, double h);
+
+/// Of the face opposite a corner, inwards, as long as twice its area.
+inline Vec3d inward_normal(const TetCorners& p, std::size_t corner) {
+  const auto& f = kTetFaces[corner];
+  const Vec3d a = p[static_cast<std::size_t>(f[0])];
+  return cross(p[static_cast<std::size_t>(f[2])] - a, p[static_cast<std::size_t>(f[1])] - a);
+}
 
 /// Gradients of the barycentric coordinates of a tet of positive volume.
 std::array<Vec3d, 4> barycentric_gradients(const TetCorners& p);

@@ -100,9 +100,8 @@ void halve(std::span<std::uint32_t> items, const std::vector<Vec3d>& middles) {
   while (group * kernel::kBoxGroup < items.size()) group *= kernel::kBoxGroup;
   const std::size_t half = std::max<std::size_t>(1, items.size() / group / 2) * group;
   const auto middle = items.begin() + static_cast<std::ptrdiff_t>(half);
-  std::nth_element(items.begin(), middle, items.end(), [&](std::uint32_t i, std::uint32_t j) {
-    return std::pair(along(i), i) < std::pair(along(j), j);
-  });
+  std::nth_element(items.begin(), middle, items.end(),
+                   [&](std::uint32_t i, std::uint32_t j) { return std::pair(along(i), i) < std::pair(along(j), j); });
   halve(items.first(half), middles);
   halve(items.subspan(half), middles);
 }
@@ -137,9 +136,8 @@ void find_sharp_edges(RestSurface& surface, const Piece& piece) {
       const std::uint32_t a = c[i], b = c[(i + 1) % 3];
       sides.push_back({{std::min(a, b), std::max(a, b)}, t, c[(i + 2) % 3]});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::pair(a.ends, a.triangle) < std::pair(b.ends, b.triangle);
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::pair(a.ends, a.triangle) < std::pair(b.ends, b.triangle); });
   for (std::size_t i = 1; i < sides.size(); ++i) {
     const Side &a = sides[i - 1], &b = sides[i];
     if (a.ends != b.ends || (!surface.sharp_edges.empty() && surface.sharp_edges.back() == a.ends)) continue;

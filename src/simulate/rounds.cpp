@@ -39,10 +39,9 @@ class Splitter {
   std::size_t longest_axis(const TetRun& tets) const {
     std::array<double, 3> extent{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto [least, most] =
-          std::minmax_element(tets.begin(), tets.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return middles_[a][axis] < middles_[b][axis];
-          });
+      const auto [least, most] = std::minmax_element(tets.begin(), tets.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return middles_[a][axis] < middles_[b][axis];
+      });
       extent[axis] = middles_[*most][axis] - middles_[*least][axis];
     }
     return static_cast<std::size_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());

@@ -130,7 +130,8 @@ bool fits_vertices(const World& world, const Snapshot& s) {
 bool fits_springs(const World& world, const Snapshot& s) {
   return std::equal(s.springs.begin(), s.springs.end(), world.springs.begin(), world.springs.end(),
                     [](const Spring& a, const Spring& own) {
-                      return a.slot == own.slot && are_within({a.target.x, a.target.y, a.target.z}, -kFarthest, kFarthest) &&
+                      return a.slot == own.slot &&
+                             are_within({a.target.x, a.target.y, a.target.z}, -kFarthest, kFarthest) &&
                              a.stiffness >= 0 && a.stiffness <= kMaxSpring;
                     });
 }

@@ -110,7 +110,8 @@ void Simulation::step(double dt) {
       static_cast<int>(std::ceil(std::min(longer * world.options.contact_interval, double{kMaxSubsteps})));
   prepare_substeps(world, h);
   for (int i = 0; i < substeps; ++i) {
-    if (i % interval == 0) find_contacts(world, h * std::min(interval, substeps - i), i == 0 ? Edges::Find : Edges::Keep);
+    if (i % interval == 0)
+      find_contacts(world, h * std::min(interval, substeps - i), i == 0 ? Edges::Find : Edges::Keep);
     move_freely(world, h);
     solve_springs(world, h);
     solve_contacts(world, h);
