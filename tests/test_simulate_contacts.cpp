@@ -241,5 +241,20 @@ TEST(RestSurface, TheNearestPointOfABlocksSurfaceIsFound) {
   }
 }
 
+TEST(RestSurface, InTheMiddleOfALargeBlockTheSurfaceIsFoundAsWell) {
+  const simulate::Piece piece = simulate::split_pieces(block_mesh({13, 13, 13}, 0.1), 1)[0];
+  simulate::RestSurface surface = simulate::make_rest_surface(piece);
+  const Vec3d middle{0.65, 0.65, 0.65};
+  for (std::uint32_t t = 0; t < piece.tets.size(); ++t) {
+    const TetCorners p = simulate::corners_at(piece.places, piece.tets[t]);
+    if (least_weight(p, middle) < 0) continue;
+    simulate::find_near_triangles(surface, piece, t);
+    const auto [triangle, weights] = simulate::nearest_surface_point(surface, piece, t, middle, {});
+    Vec3d nearest;
+    for (std::size_t i = 0; i < 3; ++i) nearest += piece.places[surface.triangles[triangle][i]] * weights[i];
+    EXPECT_NEAR(length(nearest - middle), 0.65, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace tetsoup

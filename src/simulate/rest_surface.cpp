@@ -200,8 +200,9 @@ void find_near_triangles(RestSurface& surface, const Piece& piece, std::uint32_t
   double least = std::numeric_limits<double>::infinity();
   std::vector<std::pair<double, std::uint32_t>> found;
   // Distance is 1-Lipschitz: what is nearest somewhere in the ball is at most so much farther from its middle; what
-  // faces some way counts up to a mean edge from the ball. How far the nearest is, is not known at first.
-  for (double reach = radius + piece.mean_edge;; reach = std::max(2 * reach, least + 2 * radius)) {
+  // faces some way counts up to a mean edge from the ball. How far the nearest is, is not known at first, nor in the
+  // middle of a large piece after one look.
+  for (double reach = radius + piece.mean_edge;; reach = std::max(2 * reach, found.empty() ? 0 : least + 2 * radius)) {
     found = triangles_within(surface, piece, middle, reach);
     if (!found.empty()) least = found.front().first;
     if (reach >= least + 2 * radius) break;
