@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "lattice_shapes.h"
 #include "shapes.h"
 #include "simulate/obstacles.h"
 #include "simulate/rest_surface.h"
+#include "tetsoup/error.h"
 #include "tetsoup/simulate.h"
 
 namespace tetsoup {
@@ -108,6 +110,55 @@ TEST(SimulateContacts, ABodyRestsOnASoupAsOnTheSolidItStandsFor) {
   EXPECT_LT(simulation.energy().kinetic, 1e-3);
 }
 
+/// Two bars of one cell across, crossed a cell's fifth off the middle: one is held at its ends, the other is pulled
+/// over it at its ends. Faces cross faces, and no vertex is near.
+TEST(SimulateContacts, CrossedBarsDoNotPassThroughEachOther) {
+  constexpr int kCells = 9;
+  constexpr double kCell = 0.1, kLength = kCells * kCell, kPull = 200;  // N
+  SimulationOptions options;
+  options.gravity = {};
+  Simulation simulation(options);
+  const TetMesh mesh = block_mesh({kCells, 1, 1}, kCell);
+  const std::size_t under = simulation.add_body(mesh, rubber(), {.translate = {-kLength / 2, -kCell / 2, 0}});
+  const std::size_t over = simulation.add_body(
+      mesh, rubber(),
+      {.translate = {kCell / 2 + 0.02, -kLength / 2 + 0.02, kCell * 1.05}, .rotate = {0, 0, std::numbers::pi / 2}});
+  const auto is_end = [&](const Vec3& p) { return p.x < 1e-6F || p.x > static_cast<float>(kLength) - 1e-4F; };
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!is_end(mesh.vertices[v])) continue;
+    simulation.pin({under, v});
+    const Vec3d at = to_double(simulation.positions(over)[v]);
+    simulation.add_spring({over, v}, at - Vec3d{0, 0, 1}, kPull / 8);
+  }
+  const auto middle = [&](std::size_t body) {
+    double sum = 0;
+    int count = 0;
+    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+      if (std::abs(static_cast<double>(mesh.vertices[v].x) - kLength / 2) > 0.6 * kCell) continue;
+      sum += static_cast<double>(simulation.positions(body)[v].z);
+      ++count;
+    }
+    return sum / count;
+  };
+  for (int frame = 0; frame < 180; ++frame) {
+    simulation.step(kFrame);
+    ASSERT_GT(middle(over) - middle(under), 0.7 * kCell) << frame;
+  }
+}
+
+TEST(SimulateContacts, AnObstacleTooLargeForMemoryIsRefusedWithWhatWouldFit) {
+  Simulation simulation;
+  const TriangleSoup cube = test::make_box({0, 0, 0}, {1, 1, 1});
+  try {
+    simulation.add_obstacle(cube, 4000);
+    ADD_FAILURE() << "4000^3 voxels were accepted";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("voxels = 4000, must be at most 527"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(simulation.add_obstacle(cube, 0), InvalidInput);
+  simulation.add_obstacle(test::make_box({0, 0, 0}, {1, 0.01, 0.01}), 1000);  // 1004 x 14 x 14
+}
+
 TEST(SimulateContacts, AFoldedBodyDoesNotPassThroughItself) {
   // A long bar, its ends bent towards each other and shot at each other.
   const auto gap_after = [](Contacts contacts) {
@@ -176,6 +227,7 @@ TEST(RestSurface, TheNearestPointOfABlocksSurfaceIsFound) {
   const simulate::Piece piece = simulate::split_pieces(block_mesh({4, 4, 4}, 0.25), 1)[0];
   simulate::RestSurface surface = simulate::make_rest_surface(piece);
   EXPECT_EQ(surface.triangles.size(), 6U * 32U);
+  EXPECT_EQ(surface.sharp_edges.size(), 12U * 4U);  // neither diagonals nor what is between flat cells
   for (std::uint32_t t = 0; t < piece.tets.size(); ++t) {
     simulate::find_near_triangles(surface, piece, t);
     const TetCorners p = simulate::corners_at(piece.places, piece.tets[t]);
@@ -186,6 +238,21 @@ TEST(RestSurface, TheNearestPointOfABlocksSurfaceIsFound) {
     for (std::size_t i = 0; i < 3; ++i) nearest += piece.places[surface.triangles[triangle][i]] * weights[i];
     EXPECT_NEAR(length(nearest - at), depth(at), 1e-9);
     EXPECT_NEAR(depth(nearest), 0, 1e-9);
+  }
+}
+
+TEST(RestSurface, InTheMiddleOfALargeBlockTheSurfaceIsFoundAsWell) {
+  const simulate::Piece piece = simulate::split_pieces(block_mesh({13, 13, 13}, 0.1), 1)[0];
+  simulate::RestSurface surface = simulate::make_rest_surface(piece);
+  const Vec3d middle{0.65, 0.65, 0.65};
+  for (std::uint32_t t = 0; t < piece.tets.size(); ++t) {
+    const TetCorners p = simulate::corners_at(piece.places, piece.tets[t]);
+    if (least_weight(p, middle) < 0) continue;
+    simulate::find_near_triangles(surface, piece, t);
+    const auto [triangle, weights] = simulate::nearest_surface_point(surface, piece, t, middle, {});
+    Vec3d nearest;
+    for (std::size_t i = 0; i < 3; ++i) nearest += piece.places[surface.triangles[triangle][i]] * weights[i];
+    EXPECT_NEAR(length(nearest - middle), 0.65, 1e-6);
   }
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -89,6 +90,35 @@ TEST(SimulateElastic, ByDefaultASmallOrStiffOrMuchDampedBeamIsNoSofterThanItsMat
       EXPECT_GT(over_theory, 0.5) << size << " m, damping " << damping_time;  // two linear tets across are too stiff
       EXPECT_LT(over_theory, 1.4) << size << " m, damping " << damping_time;
       EXPECT_GT(simulation.report().substeps, 30);
+    }
+  }
+}
+
+TEST(SimulateElastic, ByDefaultAColumnOnTheGroundSagsAsItsMaterialSays) {
+  for (const double young : {1e5, 1e7}) {
+    for (const double damping_time : {0.002, 0.2}) {
+      constexpr double kHeight = 0.5, kHeavier = 3;
+      SimulationOptions options;
+      options.contacts = Contacts::Between;
+      options.gravity = {0, 0, -kHeavier * kGravity * young / 3e5};  // the same share at any stiffness
+      Simulation simulation(options);
+      simulation.add_plane({0, 0, 1}, 0);
+      SimMaterial material;
+      material.elastic.young = young;
+      material.elastic.poisson = 0.4;
+      material.damping_time = damping_time;
+      const std::size_t body = simulation.add_body(block_mesh({4, 4, 10}, kHeight / 10), material);
+      double sum = 0;
+      for (int frame = 0; frame < 120; ++frame) {
+        simulation.step(kFrame);
+        const auto [lowest, highest] =
+            std::minmax_element(simulation.positions(body).begin(), simulation.positions(body).end(),
+                                [](const Vec3& a, const Vec3& b) { return a.z < b.z; });
+        sum += frame < 60 ? 0 : kHeight - static_cast<double>(highest->z - lowest->z);
+      }
+      const double theory = material.elastic.density * -options.gravity.z * kHeight * kHeight / (2 * young);
+      EXPECT_GT(sum / 60 / theory, 0.8) << young << " Pa, damping " << damping_time;
+      EXPECT_LT(sum / 60 / theory, 1.4) << young << " Pa, damping " << damping_time;
     }
   }
 }

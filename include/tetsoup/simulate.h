@@ -63,8 +63,8 @@ struct SimulationOptions {
   Solver solver = Solver::Implicit;
   Vec3d gravity{0, 0, -9.81};  ///< m/s^2.
   int substeps = 10;           ///< Of a step, at least; 1..10000. Potentials take more where stability asks for it,
-  /// and the implicit solver up to so many where sound would pass an edge of the mesh within a substep, since bodies
-  /// would then be softer than their material; 1..10000. What is below `substeps` counts for nothing.
+  /// and the implicit solver up to so many where sound would pass more than .7 edges of the mesh within a substep,
+  /// since bodies would then be softer than their material; 1..10000. What is below `substeps` counts for nothing.
   int max_substeps = 200;
   int contact_interval = 5;  ///< Substeps from one search for contacts to the next, >= 1; in proportion where a step
                              ///< takes more than `substeps`.
@@ -138,7 +138,9 @@ class Simulation {
   /// Keeps bodies where dot(normal, p) >= offset; the normal need not be a unit vector.
   void add_plane(const Vec3d& normal, double offset, double friction = kDefaultFriction);
   /// Keeps bodies out of the pseudo volume of any soup, by its signed distance on a grid of so many voxels.
-  /// @throws InvalidInput  if the soup has no finite triangle or a number is out of range; Cancelled.
+  /// @throws InvalidInput  if the soup has no finite triangle, a number is out of range, or the grid would have more
+  /// than
+  ///                       1.5e8 voxels; Cancelled.
   void add_obstacle(const TriangleSoup& soup, int voxels = kDefaultObstacleVoxels, double friction = kDefaultFriction,
                     const Progress& progress = {});
 
@@ -178,7 +180,8 @@ class Simulation {
   std::vector<std::byte> save_state() const;
   /// Goes on where a simulation stood that had been built in the same way (bodies, pins, springs, attachments and
   /// obstacles), to the bit.
-  /// @throws InvalidInput  if the bytes are damaged or of a simulation that was built otherwise; nothing changes then.
+  /// @throws InvalidInput  if the bytes are damaged, hold what no simulation can have come to, or are of one that was
+  ///                       built otherwise; nothing changes then.
   void restore_state(std::span<const std::byte> state);
 
  private:

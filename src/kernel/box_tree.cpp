@@ -80,7 +80,8 @@ void find_boxes_around(const BoxTree& tree, std::span<const NumberedPoint> point
                        const Neighbours& neighbours, std::vector<PointInBox>& found) {
   for (const NumberedPoint& p : points) {
     const auto [x, y, z] = p.place;
-    const Reach reach{{x - margin, y - margin, z - margin}, {x + margin, y + margin, z + margin}};
+    const Vec3 by{p.half.x + margin, p.half.y + margin, p.half.z + margin};
+    const Reach reach{{x - by.x, y - by.y, z - by.z}, {x + by.x, y + by.y, z + by.z}};
     descend({tree, p, reach, neighbours, found}, tree.levels.size() - 1, 0);
   }
 }

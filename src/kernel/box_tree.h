@@ -38,7 +38,8 @@ void fit_upper_levels(BoxTree& tree);
 struct NumberedPoint {
   Vec3 place;
   std::uint32_t number = 0;
-  Vec3 rest;  ///< Where it was when nothing had moved; for `Neighbours`.
+  Vec3 rest;    ///< Where it was when nothing had moved; for `Neighbours`.
+  Vec3 half{};  ///< Of a box around it that is looked for instead.
 };
 struct PointInBox {
   std::uint32_t point = 0;  ///< Its number.

@@ -4,6 +4,7 @@
 
 #include "base/vec.h"
 #include "scene/check.h"
+#include "scene/pins.h"
 #include "scene/problem.h"
 #include "scene/source.h"
 #include "tetsoup/error.h"
@@ -29,13 +30,10 @@ auto at_path(const std::string& path, const Action& action) {
   }
 }
 
-bool is_driven(const ScenePin& pin) {
-  return pin.velocity != Vec3d{} || pin.spin != Vec3d{};
-}
-
 bool any_driven(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const SceneBody& body) { return std::any_of(body.pins.begin(), body.pins.end(), is_driven); });
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const SceneBody& body) {
+    return std::any_of(body.pins.begin(), body.pins.end(), is_driven<ScenePin>);
+  });
 }
 
 /// Vertices that are driven move before every step; a frame is then as many steps as it has searches for contacts.

@@ -4,16 +4,15 @@
 #include <cstring>
 
 #include "base/vec.h"
+#include "scene/pins.h"
 #include "tetsoup/error.h"
 #include "tetsoup/scene.h"
 
 namespace tetsoup {
 
-namespace {
+using scene::is_driven;
 
-bool is_driven(const MovedPin& pin) {
-  return pin.velocity != Vec3d{} || pin.spin != Vec3d{};
-}
+namespace {
 
 /// About an axis through the origin, by its length in radians [Rodrigues].
 Vec3d rotated(const Vec3d& rotation, const Vec3d& p) {
@@ -55,7 +54,7 @@ int steps_of_frame(const LoadedScene& loaded) {
   constexpr double kRounding = 1e-9;         // 60 fps make one step
   const int steps = static_cast<int>(std::ceil(1 / (loaded.scene.fps * kLongestStep) - kRounding));
   const SimulationOptions& options = loaded.scene.simulation;
-  const bool driven = std::any_of(loaded.moved.begin(), loaded.moved.end(), is_driven);
+  const bool driven = std::any_of(loaded.moved.begin(), loaded.moved.end(), is_driven<MovedPin>);
   return std::max(1, steps) * (driven ? (options.substeps - 1) / options.contact_interval + 1 : 1);
 }
 
@@ -93,9 +92,16 @@ void restore_scene_state(LoadedScene& loaded, std::span<const std::byte> bytes) 
   std::uint64_t frame = 0;
   if (bytes.size() < sizeof(frame)) throw InvalidInput("the saved state is damaged");
   std::memcpy(&frame, bytes.data(), sizeof(frame));
+  const std::vector<std::byte> before = loaded.simulation.save_state();
   // Whether a vertex is held is not part of a state, but must be as it was then.
   release_pins(loaded, static_cast<double>(frame) - 1);
-  loaded.simulation.restore_state(bytes.subspan(sizeof(frame)));
+  try {
+    loaded.simulation.restore_state(bytes.subspan(sizeof(frame)));
+  } catch (const InvalidInput&) {
+    release_pins(loaded, static_cast<double>(loaded.frame) - 1);
+    loaded.simulation.restore_state(before);
+    throw;
+  }
   loaded.frame = frame;
   deform_surfaces(loaded);
 }

@@ -1,32 +1,45 @@
 #include "simulate/batches.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "simulate/rounds.h"
 
 namespace tetsoup::simulate {
 namespace {
 
-/// Puts each tet into the first group that has none of its vertices and fewer than `capacity` tets.
-std::vector<std::vector<std::uint32_t>> group_tets(const Piece& piece, std::size_t capacity) {
-  std::vector<std::vector<std::uint32_t>> groups;
-  std::vector<std::vector<std::uint32_t>> groups_of(piece.places.size());  // ascending enough: a few dozen a vertex
-  std::size_t first_open = 0;
-  for (std::uint32_t t = 0; t < piece.tets.size(); ++t) {
-    const Tet& tet = piece.tets[t];
-    const auto is_taken = [&](std::uint32_t group) {
-      return std::any_of(tet.begin(), tet.end(), [&](std::uint32_t v) {
-        return std::find(groups_of[v].rbegin(), groups_of[v].rend(), group) != groups_of[v].rend();
-      });
-    };
-    while (first_open < groups.size() && groups[first_open].size() >= capacity) ++first_open;
-    std::size_t g = first_open;
-    while (g < groups.size() && (groups[g].size() >= capacity || is_taken(static_cast<std::uint32_t>(g)))) ++g;
-    if (g == groups.size()) groups.emplace_back();
-    groups[g].push_back(t);
-    for (const std::uint32_t v : tet) groups_of[v].push_back(static_cast<std::uint32_t>(g));
+/// Puts each tet of a run into the first group that has none of its vertices and room for it.
+class Grouping {
+ public:
+  explicit Grouping(const Piece& piece) : piece_(piece), groups_of_(piece.places.size()) {}
+
+  std::vector<TetRun> groups(const TetRun& run) {
+    std::vector<TetRun> groups;
+    std::size_t first_open = 0;
+    for (const std::uint32_t t : run) {
+      const auto is_full = [&](std::size_t g) { return groups[g].size() >= kernel::kTetLanes; };
+      while (first_open < groups.size() && is_full(first_open)) ++first_open;
+      std::size_t g = first_open;
+      while (g < groups.size() && (is_full(g) || is_taken(t, static_cast<std::uint32_t>(g)))) ++g;
+      if (g == groups.size()) groups.emplace_back();
+      groups[g].push_back(t);
+      for (const std::uint32_t v : piece_.tets[t]) groups_of_[v].push_back(static_cast<std::uint32_t>(g));
+    }
+    for (const std::uint32_t t : run)
+      for (const std::uint32_t v : piece_.tets[t]) groups_of_[v].clear();
+    return groups;
   }
-  return groups;
-}
+
+ private:
+  bool is_taken(std::uint32_t t, std::uint32_t group) const {
+    const Tet& tet = piece_.tets[t];
+    return std::any_of(tet.begin(), tet.end(), [&](std::uint32_t v) {
+      return std::find(groups_of_[v].rbegin(), groups_of_[v].rend(), group) != groups_of_[v].rend();
+    });
+  }
+
+  const Piece& piece_;
+  std::vector<std::vector<std::uint32_t>> groups_of_;  ///< Of the vertices; a few dozen each.
+};
 
 kernel::TetBatch empty_batch(std::uint32_t vertex_without_mass) {
   kernel::TetBatch batch{};
@@ -35,23 +48,26 @@ kernel::TetBatch empty_batch(std::uint32_t vertex_without_mass) {
   return batch;
 }
 
+void add_batch(Rest& rest, const TetRun& tets) {
+  rest.batches.push_back(empty_batch(static_cast<std::uint32_t>(rest.padded_count - 1)));
+  for (std::size_t lane = 0; lane < tets.size(); ++lane) {
+    const Tet& tet = rest.piece.tets[tets[lane]];
+    for (std::size_t c = 0; c < 4; ++c) rest.batches.back().corners[c][lane] = tet[c];
+    rest.lanes[tets[lane]] = static_cast<std::uint32_t>((rest.batches.size() - 1) * kernel::kTetLanes + lane);
+  }
+}
+
 }  // namespace
 
 void fill_batches(Rest& rest) {
-  const std::size_t tet_count = rest.piece.tets.size();
-  const bool shared = tet_count > kSharedTets;
-  const auto groups =
-      group_tets(rest.piece, shared ? std::numeric_limits<std::size_t>::max() : std::size_t{kernel::kTetLanes});
-  rest.lanes.assign(tet_count, 0);
-  for (const std::vector<std::uint32_t>& group : groups) {
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const std::size_t lane = i % kernel::kTetLanes;
-      if (lane == 0) rest.batches.push_back(empty_batch(static_cast<std::uint32_t>(rest.padded_count - 1)));
-      const Tet& tet = rest.piece.tets[group[i]];
-      for (std::size_t c = 0; c < 4; ++c) rest.batches.back().corners[c][lane] = tet[c];
-      rest.lanes[group[i]] = static_cast<std::uint32_t>((rest.batches.size() - 1) * kernel::kTetLanes + lane);
+  rest.lanes.assign(rest.piece.tets.size(), 0);
+  Grouping grouping(rest.piece);
+  for (const std::vector<TetRun>& round : split_rounds(rest.piece)) {
+    std::vector<std::size_t>& ends = rest.rounds.emplace_back();
+    for (const TetRun& run : round) {
+      for (const TetRun& group : grouping.groups(run)) add_batch(rest, group);
+      ends.push_back(rest.batches.size());
     }
-    rest.colours.push_back(rest.batches.size());
   }
 }
 

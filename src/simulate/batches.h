@@ -5,10 +5,8 @@
 
 namespace tetsoup::simulate {
 
-/// Sets lanes, batches and colours of a rest: its tets in their order, each in the first batch that has room for it.
-///
-/// Up to kSharedTets every batch is a colour of its own, as full as its sixteen lanes allow. Larger pieces get few
-/// colours without limit, cut into batches that threads can share.
+/// Sets lanes, batches and rounds of a rest: of each run the tets in their order, each in the first batch that has room
+/// for it.
 void fill_batches(Rest& rest);
 
 }  // namespace tetsoup::simulate

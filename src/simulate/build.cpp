@@ -151,6 +151,7 @@ void hold_vertex(World& world, std::uint32_t slot, Hold hold) {
   }
   Rest& rest = world.rests[part.rest];
   rest.held[v] = held ? 1 : 0;
+  rest.held_count = held ? rest.held_count + 1 : rest.held_count - 1;
   rest.prepared_for = 0;
   world.places[slot].inverse_mass = static_cast<float>(rest.inverse_mass(v));
   kernel::Motion& m = world.motions[slot];

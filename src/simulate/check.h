@@ -9,6 +9,7 @@ namespace tetsoup::simulate {
 
 inline constexpr double kMaxCoordinate = 1e5;  ///< m; where single precision is 8 mm coarse.
 inline constexpr double kMinEdge = 1e-6;       ///< m
+inline constexpr double kMaxSpring = 1e12;     ///< N/m
 inline constexpr double kMaxSpeed = 1e4;       ///< m/s
 /// More substeps than this no step takes; where the potentials' bound asks for more, moves are clamped.
 inline constexpr int kMaxSubsteps = 10000;

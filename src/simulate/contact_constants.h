@@ -7,6 +7,8 @@ namespace tetsoup::simulate {
 inline constexpr double kMostAhead = 0.1;
 /// How far along a triangle's plane a contact holds.
 inline constexpr double kReach = 1;
+/// How deep an edge may lie in another body without being pushed: what rests on its vertices is not disturbed.
+inline constexpr double kEdgeSlack = 0.05;
 /// What lay so near at rest is not kept apart: neighbours, and copies of tets in one place.
 inline constexpr double kNeighbours = 1;
 

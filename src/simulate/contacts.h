@@ -23,6 +23,15 @@ struct Contact {
   std::uint32_t triangle = 0;  ///< and its number there.
 };
 
+/// A point of a sharp edge that has got into a part between its ends: as the vertex of a contact, which is the first
+/// end.
+struct EdgeContact {
+  Contact contact;
+  std::uint32_t other_end = 0;
+  float along = 0;  ///< From the first end to the other, 0..1.
+  float slack = 0;  ///< Depth that is left alone.
+};
+
 /// A vertex at an obstacle: dot(normal, p) stays above offset.
 struct ObstacleContact {
   std::uint32_t vertex = 0;
@@ -32,12 +41,16 @@ struct ObstacleContact {
 };
 
 struct ContactSet {
-  std::vector<Contact> between;  ///< Ascending by part, then vertex; one for each two.
+  std::vector<Contact> between;     ///< Ascending by part, then vertex; one for each two.
+  std::vector<EdgeContact> across;  ///< Edges and other bodies.
   std::vector<ObstacleContact> with_obstacles;
 };
 
-/// Finds what touches, or may touch within `horizon` seconds.
-void find_contacts(World& world, double horizon);
+enum class Edges { Find, Keep };
+
+/// Finds what touches, or may touch within `horizon` seconds. Edges are found once a step and then kept: they are slow
+/// to find, and vertices tell of most.
+void find_contacts(World& world, double horizon, Edges edges);
 
 /// Pushes and rubs, after all parts have moved freely for h.
 void solve_contacts(World& world, double h);

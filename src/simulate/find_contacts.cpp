@@ -7,13 +7,15 @@
 #include "base/parallel.h"
 #include "base/vec.h"
 #include "simulate/contact_constants.h"
+#include "simulate/edge_contacts.h"
 #include "simulate/part_pairs.h"
 #include "simulate/world.h"
 
 namespace tetsoup::simulate {
 namespace {
 
-constexpr std::size_t kGrain = 512;      ///< Vertices a task.
+constexpr std::size_t kGrain = 256;      ///< Vertices a task.
+constexpr std::size_t kBoxGrain = 128;   ///< Groups of boxes a task.
 constexpr std::int64_t kHitGrain = 128;  ///< Hits a task.
 /// How far outside a tet's inner faces a vertex may lie, in its heights: edges of bodies stand on edges.
 constexpr double kSlack = 0.02;
@@ -30,11 +32,13 @@ class Search {
   Search(World& world, double horizon)
       : world_(world), watch_(nobody_, "simulate"), pairs_(find_part_pairs(world, horizon, watch_)) {}
 
-  void run() {
+  void run(Edges edges) {
     before_ = std::move(world_.contacts.between);
-    world_.contacts = {};
+    world_.contacts.between.clear();
+    world_.contacts.with_obstacles.clear();
     touch_obstacles();
     add_contacts(find_hits());
+    if (edges == Edges::Find) cross_edges();
   }
 
  private:
@@ -49,6 +53,12 @@ class Search {
   void for_parts(const Body& body) {
     parallel_for(static_cast<std::int64_t>(world_.parts.size()), 1, watch_,
                  [&](std::int64_t p, std::int64_t) { body(static_cast<std::size_t>(p)); });
+  }
+
+  template <class Tasks, class Body>
+  void for_tasks(const Tasks& tasks, const Body& body) {
+    parallel_for(static_cast<std::int64_t>(tasks.size()), 1, watch_,
+                 [&](std::int64_t i, std::int64_t) { body(tasks[static_cast<std::size_t>(i)]); });
   }
 
   void touch_obstacles() {
@@ -71,20 +81,37 @@ class Search {
                            static_cast<float>(std::sqrt(obstacle.friction * rest(p).material.friction))};
   }
 
+  /// Some of a part's boxes: groups [begin, end) of the first level.
+  struct BoxTask {
+    std::size_t part = 0, begin = 0, end = 0;
+  };
+
   /// The boxes around the tets of the parts that may meet something.
   void fit_boxes() {
-    for_parts([&](std::size_t p) {
-      if (pairs_.partners[p].empty()) return;
+    std::vector<BoxTask> tasks;
+    for (std::size_t p = 0; p < world_.parts.size(); ++p) {
+      if (pairs_.partners[p].empty()) continue;
       kernel::BoxTree& tree = world_.parts[p].boxes;
-      const std::vector<std::uint32_t>& order = surface(p).tet_order;
-      if (tree.levels.empty()) tree = kernel::make_box_tree(order.size());
-      for (std::size_t i = 0; i < order.size(); ++i) {
-        Bounds box;
-        for (const std::uint32_t v : rest(p).piece.tets[order[i]]) box.add(place(part(p).begin + v));
-        kernel::set_box(tree, i, box.lo, box.hi);
-      }
-      kernel::fit_upper_levels(tree);
+      if (tree.levels.empty()) tree = kernel::make_box_tree(surface(p).tet_order.size());
+      for (std::size_t begin = 0, count = tree.levels[0].size(); begin < count; begin += kBoxGrain)
+        tasks.push_back({p, begin, std::min(begin + kBoxGrain, count)});
+    }
+    for_tasks(tasks, [&](const BoxTask& task) { fit_first_level(task); });
+    for_tasks(tasks, [&](const BoxTask& task) {
+      if (task.begin == 0) kernel::fit_upper_levels(world_.parts[task.part].boxes);
     });
+  }
+
+  void fit_first_level(const BoxTask& task) {
+    Part& owner = world_.parts[task.part];
+    const std::vector<Tet>& tets = rest(task.part).piece.tets;
+    const std::vector<std::uint32_t>& order = surface(task.part).tet_order;
+    const std::size_t end = std::min(task.end * kernel::kBoxGroup, order.size());
+    for (std::size_t i = task.begin * kernel::kBoxGroup; i < end; ++i) {
+      Bounds box;
+      for (const std::uint32_t v : tets[order[i]]) box.add(place(owner.begin + v));
+      kernel::set_box(owner.boxes, i, box.lo, box.hi);
+    }
   }
 
   /// Some of a part's vertices, and the part whose tets they may be in.
@@ -93,11 +120,12 @@ class Search {
     Partner other;
     std::size_t begin = 0, end = 0;  ///< Of the other's vertices at its surface.
   };
-  std::vector<Task> list_tasks() const {
+  template <class Count>
+  std::vector<Task> list_tasks(const Count& count_of) const {
     std::vector<Task> tasks;
     for (std::uint32_t p = 0; p < world_.parts.size(); ++p)
       for (const Partner& q : pairs_.partners[p])
-        for (std::size_t begin = 0, count = surface(q.part).vertices.size(); begin < count; begin += kGrain)
+        for (std::size_t begin = 0, count = count_of(p, q.part); begin < count; begin += kGrain)
           tasks.push_back({p, q, begin, std::min(begin + kGrain, count)});
     return tasks;
   }
@@ -105,11 +133,10 @@ class Search {
   /// Part after part; of each, vertices ascending.
   std::vector<Hit> find_hits() {
     fit_boxes();
-    const std::vector<Task> tasks = list_tasks();
+    const std::vector<Task> tasks =
+        list_tasks([&](std::uint32_t, std::uint32_t q) { return surface(q).vertices.size(); });
     std::vector<std::vector<Hit>> found(tasks.size());
-    parallel_for(static_cast<std::int64_t>(tasks.size()), 1, watch_, [&](std::int64_t i, std::int64_t) {
-      found[static_cast<std::size_t>(i)] = hits_of(tasks[static_cast<std::size_t>(i)]);
-    });
+    for_tasks(tasks, [&](const Task& task) { found[static_cast<std::size_t>(&task - tasks.data())] = hits_of(task); });
     std::vector<Hit> hits;
     for (const auto& some : found) hits.insert(hits.end(), some.begin(), some.end());
     return hits;
@@ -141,6 +168,7 @@ class Search {
       else if (hit->depth > hits.back().depth || (hit->depth == hits.back().depth && hit->tet < hits.back().tet))
         hits.back() = *hit;
     }
+    std::erase_if(hits, [&](const Hit& hit) { return is_between_neighbours(hit); });
     return hits;
   }
 
@@ -152,26 +180,27 @@ class Search {
       if (owner.begin + tet[i] == vertex) return {};
       corners[i] = to_double(place(owner.begin + tet[i]));
     }
-    if (!(signed_volume(corners) > 0)) return {};
-    const std::array<Vec3d, 4> gradients = barycentric_gradients(corners);
+    const double six_volumes = 6 * signed_volume(corners);
+    if (!(six_volumes > 0)) return {};
     const auto ahead = static_cast<double>(task.other.ahead);
-    const Vec3d from = to_double(place(vertex)) - corners[0];
+    const Vec3d at = to_double(place(vertex));
     Hit hit{vertex, task.part, t, 1, {}};
     for (std::size_t i = 0; i < 4; ++i) {
-      const double b = dot(gradients[i], from) + (i == 0 ? 1 : 0);
+      // Most tets are left at their first or second face, so nothing is divided before.
+      const Vec3d normal = inward_normal(corners, i);
+      const double height = dot(normal, at - corners[(i + 1) % 4]);
       const bool open = (surface(task.part).open_faces[t] >> i & 1U) != 0;
-      if (b < (open ? -ahead * length(gradients[i]) : -kSlack)) return {};
-      hit.weights[i] = static_cast<float>(b);
+      if (height < (open ? -ahead * length(normal) : -kSlack * six_volumes)) return {};
+      hit.weights[i] = static_cast<float>(height / six_volumes);
       hit.depth = std::min(hit.depth, hit.weights[i]);
     }
     return hit;
   }
 
   void add_contacts(const std::vector<Hit>& hits) {
-    for (const Hit& hit : hits) {
-      const Part& owner = part(hit.part);
-      find_near_triangles(world_.surfaces[owner.surface], rest(hit.part).piece, hit.tet);
-    }
+    std::vector<TetOfPart> tets;
+    for (const Hit& hit : hits) tets.emplace_back(hit.part, hit.tet);
+    find_near_triangles_of(tets);
     std::vector<std::optional<Contact>> contacts(hits.size());
     parallel_for(static_cast<std::int64_t>(hits.size()), kHitGrain, watch_, [&](std::int64_t begin, std::int64_t end) {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
@@ -179,6 +208,40 @@ class Search {
     });
     for (const auto& contact : contacts)
       if (contact) world_.contacts.between.push_back(*contact);
+  }
+
+  using TetOfPart = std::pair<std::uint32_t, std::uint32_t>;
+
+  /// Of the tets that are hit for the first time.
+  void find_near_triangles_of(std::vector<TetOfPart> missing) {
+    std::erase_if(missing, [&](const TetOfPart& m) { return !surface(m.first).near[m.second].triangles.empty(); });
+    const auto key = [&](const auto& m) { return std::pair(part(m.first).surface, m.second); };
+    std::sort(missing.begin(), missing.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };
+    missing.erase(std::unique(missing.begin(), missing.end(), is_same), missing.end());
+    for_tasks(missing, [&](const auto& m) {
+      find_near_triangles(world_.surfaces[part(m.first).surface], rest(m.first).piece, m.second);
+    });
+  }
+
+  /// Edges of other bodies.
+  void cross_edges() {
+    world_.contacts.across.clear();
+    const std::vector<Task> tasks = list_tasks([&](std::uint32_t p, std::uint32_t q) {
+      return part(p).body != part(q).body ? surface(q).sharp_edges.size() : 0;
+    });
+    std::vector<std::vector<EdgeHit>> found(tasks.size());
+    for_tasks(tasks, [&](const Task& task) {
+      found[static_cast<std::size_t>(&task - tasks.data())] =
+          find_edge_hits(world_, pairs_, task.part, task.other.part, task.begin, task.end);
+    });
+    std::vector<TetOfPart> tets;
+    for (const auto& some : found)
+      for (const EdgeHit& hit : some)
+        for (const EdgePlace& p : {hit.in, hit.out, hit.middle}) tets.emplace_back(hit.part, p.tet);
+    find_near_triangles_of(std::move(tets));
+    for (const auto& some : found)
+      for (const EdgeHit& hit : some) add_edge_contacts(world_, hit);
   }
 
   /// The side through which the vertex was kept out of the part until now.
@@ -191,18 +254,28 @@ class Search {
     return surface(hit.part).normals[at->triangle];
   }
 
-  std::optional<Contact> contact_of(const Hit& hit) const {
+  /// Where a hit's point is when the part is at rest.
+  Vec3d rest_place_of(const Hit& hit) const {
     const Piece& piece = rest(hit.part).piece;
-    const RestSurface& skin = surface(hit.part);
     Vec3d at;
     for (std::size_t i = 0; i < 4; ++i)
       at += piece.places[piece.tets[hit.tet][i]] * static_cast<double>(hit.weights[i]);
+    return at;
+  }
+
+  /// Whether vertex and point lay near each other at rest.
+  bool is_between_neighbours(const Hit& hit) const {
+    const Part& other = part(world_.owners[hit.vertex]);
+    if (other.body != part(hit.part).body) return false;
+    const Vec3d own = rest(world_.owners[hit.vertex]).piece.places[hit.vertex - other.begin];
+    return squared_length(own - rest_place_of(hit)) < squared_neighbourhood(hit.part);
+  }
+
+  std::optional<Contact> contact_of(const Hit& hit) const {
+    const Piece& piece = rest(hit.part).piece;
+    const RestSurface& skin = surface(hit.part);
     const std::uint32_t other = world_.owners[hit.vertex];
-    if (part(other).body == part(hit.part).body) {
-      const Vec3d own = rest(other).piece.places[hit.vertex - part(other).begin];
-      if (squared_length(own - at) < squared_neighbourhood(hit.part)) return {};
-    }
-    const SurfacePoint point = nearest_surface_point(skin, piece, hit.tet, at, way_in(hit));
+    const SurfacePoint point = nearest_surface_point(skin, piece, hit.tet, rest_place_of(hit), way_in(hit));
     Contact contact{hit.vertex, {}, {}, 0, static_cast<float>(kReach * piece.mean_edge), hit.part, point.triangle};
     for (std::size_t i = 0; i < 3; ++i) {
       contact.corners[i] = part(hit.part).begin + skin.triangles[point.triangle][i];
@@ -222,8 +295,8 @@ class Search {
 
 }  // namespace
 
-void find_contacts(World& world, double horizon) {
-  if (world.options.contacts != Contacts::None) Search(world, horizon).run();
+void find_contacts(World& world, double horizon, Edges edges) {
+  if (world.options.contacts != Contacts::None) Search(world, horizon).run(edges);
 }
 
 }  // namespace tetsoup::simulate

@@ -90,11 +90,7 @@ double share_of(double damping_time, double h) {
 std::array<Vec3d, 4> barycentric_gradients(const TetCorners& p) {
   const double scale = 1 / (6 * signed_volume(p));
   std::array<Vec3d, 4> g;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto& f = kTetFaces[i];
-    const Vec3d a = p[static_cast<std::size_t>(f[0])];
-    g[i] = cross(p[static_cast<std::size_t>(f[1])] - a, p[static_cast<std::size_t>(f[2])] - a) * -scale;
-  }
+  for (std::size_t i = 0; i < 4; ++i) g[i] = inward_normal(p, i) * scale;
   return g;
 }
 
@@ -132,19 +128,14 @@ std::vector<Piece> split_pieces(const TetMesh& mesh, double scale) {
   return pieces;
 }
 
-bool Rest::is_held() const {
-  return std::any_of(held.begin(), held.end(), [](std::uint8_t h) { return h != 0; });
-}
-
 double Rest::damping_time(double h, double edge) const {
   // A sweep does not reach the balance of a stiff body, and viscosity would keep what is amiss as if it were the
   // strain before: beams sag, and crumple where waves of elasticity and viscosity together pass two edges in a substep.
-  constexpr double kEdges = 1;
   constexpr double kAlways = 0.3;  // substeps: no beam crumpled with it
   constexpr double kTried = 12;    // edges in a substep, of those beams
   const double edges = h / wave_time(edge);
   const double least = kAlways * std::min(1.0, std::pow(kTried / edges, 2));
-  return std::min(material.damping_time, h * std::max(least, std::pow(kEdges / edges, 2) - 1));
+  return std::min(material.damping_time, h * std::max(least, std::pow(kMostEdges / edges, 2) - 1));
 }
 
 Rest make_rest(Piece piece, const SimMaterial& material) {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
-#include "base/morton.h"
-#include "base/parallel.h"
 #include "base/tet_faces.h"
 #include "base/vec.h"
 
@@ -83,26 +82,68 @@ Vec3d middle_of(const TetCorners& p) {
   return (p[0] + p[1] + p[2] + p[3]) * 0.25;
 }
 
-void order_tets(RestSurface& surface, const Piece& piece) {
-  constexpr double kCells = 8000;  // that Morton codes tell apart
-  Vec3d lo = piece.places[0], hi = lo;
-  for (const Vec3d& p : piece.places) {
-    lo = min(lo, p);
-    hi = max(hi, p);
+/// Orders items so that every aligned group of the tree, on every level, is near in space: halves across the longest
+/// side, down to a group. The boxes around such groups overlap less than those along a curve.
+void halve(std::span<std::uint32_t> items, const std::vector<Vec3d>& middles) {
+  if (items.size() <= kernel::kBoxGroup) return;
+  Vec3d lo = middles[items[0]], hi = lo;
+  for (const std::uint32_t i : items) {
+    lo = min(lo, middles[i]);
+    hi = max(hi, middles[i]);
   }
-  const double scale = kCells / std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
-  const Progress nobody;
-  StageWatch watch(nobody, "simulate");
-  const auto middle = [&](std::size_t t) { return middle_of(corners_at(piece.places, piece.tets[t])); };
-  const auto entries = morton_order(
-      piece.tets.size(), [&](std::size_t t) { return to_float((middle(t) - lo) * scale); }, watch);
-  surface.middles.resize((entries.size() + kernel::kBoxGroup - 1) / kernel::kBoxGroup);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    surface.tet_order.push_back(entries[i].index);
-    const auto [x, y, z] = to_float(middle(entries[i].index));
+  const Vec3d size = hi - lo;
+  const auto along = [&](std::uint32_t i) {
+    const Vec3d& m = middles[i];
+    return size.x >= size.y && size.x >= size.z ? m.x : size.y >= size.z ? m.y : m.z;
+  };
+  std::size_t group = kernel::kBoxGroup;
+  while (group * kernel::kBoxGroup < items.size()) group *= kernel::kBoxGroup;
+  const std::size_t half = std::max<std::size_t>(1, items.size() / group / 2) * group;
+  const auto middle = items.begin() + static_cast<std::ptrdiff_t>(half);
+  std::nth_element(items.begin(), middle, items.end(),
+                   [&](std::uint32_t i, std::uint32_t j) { return std::pair(along(i), i) < std::pair(along(j), j); });
+  halve(items.first(half), middles);
+  halve(items.subspan(half), middles);
+}
+
+void order_tets(RestSurface& surface, const Piece& piece) {
+  std::vector<Vec3d> middles;
+  for (const Tet& tet : piece.tets) middles.push_back(middle_of(corners_at(piece.places, tet)));
+  surface.tet_order.resize(middles.size());
+  std::iota(surface.tet_order.begin(), surface.tet_order.end(), 0U);
+  halve(surface.tet_order, middles);
+  surface.middles.resize((middles.size() + kernel::kBoxGroup - 1) / kernel::kBoxGroup);
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const auto [x, y, z] = to_float(middles[surface.tet_order[i]]);
     kernel::MiddleGroup& group = surface.middles[i / kernel::kBoxGroup];
     const std::size_t place = i % kernel::kBoxGroup;
     group.at[0][place] = x, group.at[1][place] = y, group.at[2][place] = z;
+  }
+}
+
+/// Edges that can get into another body with both ends outside: where it is flat or hollow, a body meets others with
+/// its vertices, or with theirs.
+void find_sharp_edges(RestSurface& surface, const Piece& piece) {
+  constexpr double kFlat = 0.7;  // cosine of 45 degrees
+  struct Side {
+    std::array<std::uint32_t, 2> ends;
+    std::uint32_t triangle, opposite;
+  };
+  std::vector<Side> sides;
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Triangle& c = surface.triangles[t];
+      const std::uint32_t a = c[i], b = c[(i + 1) % 3];
+      sides.push_back({{std::min(a, b), std::max(a, b)}, t, c[(i + 2) % 3]});
+    }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::pair(a.ends, a.triangle) < std::pair(b.ends, b.triangle); });
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const Side &a = sides[i - 1], &b = sides[i];
+    if (a.ends != b.ends || (!surface.sharp_edges.empty() && surface.sharp_edges.back() == a.ends)) continue;
+    const Vec3d& normal = surface.normals[a.triangle];
+    const bool is_ridge = dot(piece.places[b.opposite] - piece.places[a.ends[0]], normal) < 0;
+    if (is_ridge && dot(normal, surface.normals[b.triangle]) < kFlat) surface.sharp_edges.push_back(a.ends);
   }
 }
 
@@ -134,6 +175,7 @@ RestSurface make_rest_surface(const Piece& piece) {
                                                          squared_length(c - centre)}))});
   }
   fit_triangle_boxes(surface, piece);
+  find_sharp_edges(surface, piece);
   surface.open_faces.assign(piece.tets.size(), 0);
   for (std::size_t begin = 0; begin < faces.size();) {
     const std::size_t end = face_run_end(faces, begin);
@@ -158,8 +200,9 @@ void find_near_triangles(RestSurface& surface, const Piece& piece, std::uint32_t
   double least = std::numeric_limits<double>::infinity();
   std::vector<std::pair<double, std::uint32_t>> found;
   // Distance is 1-Lipschitz: what is nearest somewhere in the ball is at most so much farther from its middle; what
-  // faces some way counts up to a mean edge from the ball. How far the nearest is, is not known at first.
-  for (double reach = radius + piece.mean_edge;; reach = std::max(2 * reach, least + 2 * radius)) {
+  // faces some way counts up to a mean edge from the ball. How far the nearest is, is not known at first, nor in the
+  // middle of a large piece after one look.
+  for (double reach = radius + piece.mean_edge;; reach = std::max(2 * reach, found.empty() ? 0 : least + 2 * radius)) {
     found = triangles_within(surface, piece, middle, reach);
     if (!found.empty()) least = found.front().first;
     if (reach >= least + 2 * radius) break;

@@ -24,10 +24,11 @@ struct NearTriangles {
 };
 
 struct RestSurface {
-  std::vector<Triangle> triangles;           ///< Counter-clockwise from outside.
-  std::vector<Vec3d> normals;                ///< Of unit length; zero without an area.
-  std::vector<Ball> balls;                   ///< Around the triangles.
-  std::vector<std::uint32_t> vertices;       ///< Of the triangles, ascending.
+  std::vector<Triangle> triangles;                        ///< Counter-clockwise from outside.
+  std::vector<Vec3d> normals;                             ///< Of unit length; zero without an area.
+  std::vector<Ball> balls;                                ///< Around the triangles.
+  std::vector<std::uint32_t> vertices;                    ///< Of the triangles, ascending.
+  std::vector<std::array<std::uint32_t, 2>> sharp_edges;  ///< Between triangles that form a ridge, ascending.
   std::vector<std::uint8_t> open_faces;      ///< Bit i of a tet: its face opposite corner i is on the surface.
   kernel::BoxTree boxes;                     ///< Around the triangles.
   std::vector<NearTriangles> near;           ///< Of every tet, once asked for.

@@ -1,16 +1,21 @@
 #include "simulate/saved_state.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <type_traits>
+#include <utility>
 
 #include "base/hash.h"
+#include "simulate/check.h"
 #include "tetsoup/error.h"
 
 namespace tetsoup::simulate {
 namespace {
 
 /// Of the layout below, and of what it belongs to.
-constexpr std::uint64_t kVersion = 0x31'6574'6174'7374;  // "tstate1"
+constexpr std::uint64_t kVersion = 0x32'6574'6174'7374;  // "tstate2"
 
 /// Over words of eight bytes and what is left.
 std::uint64_t hash_of(std::span<const std::byte> bytes) {
@@ -44,6 +49,7 @@ class Writer {
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  bool is_at_end() const { return rest_.empty(); }
   template <class T>
   void value(T& v) {
     take(&v, sizeof(T));
@@ -91,6 +97,105 @@ void visit(Archive& archive, AnyWorld& world) {
   }
 }
 
+/// What is read before it is known to be sound; members as in the world.
+struct Snapshot {
+  double time = 0;
+  std::vector<kernel::Place> places;
+  std::vector<kernel::Motion> motions;
+  std::vector<Spring> springs;
+  ContactSet contacts;
+  SimulationReport report;
+  std::vector<Part> parts;
+};
+
+/// Metres, and metres a second, beyond which no simulation gets; squares are still numbers.
+constexpr float kFarthest = 1e12F;
+
+/// False also for what is no number.
+bool are_within(std::initializer_list<float> values, float lo, float hi) {
+  return std::all_of(values.begin(), values.end(), [&](float v) { return v >= lo && v <= hi; });
+}
+
+bool fits_vertices(const World& world, const Snapshot& s) {
+  if (s.places.size() != world.places.size() || s.motions.size() != world.motions.size()) return false;
+  for (std::size_t i = 0; i < s.places.size(); ++i) {
+    const kernel::Place& p = s.places[i];
+    const kernel::Motion& m = s.motions[i];
+    if (!are_within({p.x, p.y, p.z, m.x, m.y, m.z}, -kFarthest, kFarthest)) return false;
+    if (p.inverse_mass != world.places[i].inverse_mass || m.mass != world.motions[i].mass) return false;
+  }
+  return true;
+}
+
+bool fits_springs(const World& world, const Snapshot& s) {
+  return std::equal(s.springs.begin(), s.springs.end(), world.springs.begin(), world.springs.end(),
+                    [](const Spring& a, const Spring& own) {
+                      return a.slot == own.slot &&
+                             are_within({a.target.x, a.target.y, a.target.z}, -kFarthest, kFarthest) &&
+                             a.stiffness >= 0 && a.stiffness <= kMaxSpring;
+                    });
+}
+
+bool fits_contact(const World& world, const Contact& c) {
+  if (c.part >= world.parts.size() || c.vertex >= world.places.size()) return false;
+  const Part& part = world.parts[c.part];
+  const std::vector<Triangle>& triangles = world.surfaces[part.surface].triangles;
+  if (c.triangle >= triangles.size()) return false;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (c.corners[i] != part.begin + triangles[c.triangle][i]) return false;
+  constexpr float kRounding = 1e-3F;
+  return are_within({c.weights[0], c.weights[1], c.weights[2]}, -kRounding, 1 + kRounding) &&
+         are_within({c.friction, c.reach}, 0, kFarthest);
+}
+
+bool fits_part(const Part& part, const Part& own) {
+  // Quaternions of no length would turn into numbers that are none.
+  constexpr float kRounding = 1e-3F;
+  const auto are_unit = [&](const kernel::TetRotations& r) {
+    for (int lane = 0; lane < kernel::kTetLanes; ++lane) {
+      float square = 0;
+      for (const auto& q : r.q) square += q[lane] * q[lane];
+      if (!(std::abs(square - 1) < kRounding)) return false;
+    }
+    return true;
+  };
+  return part.last_h >= 0 && part.last_h <= 1 && part.rotations.size() == own.rotations.size() &&
+         std::all_of(part.rotations.begin(), part.rotations.end(), are_unit);
+}
+
+bool fits_report(const SimulationReport& report, const SimulationReport& own) {
+  return report.tet_count == own.tet_count && report.left_out == own.left_out &&
+         report.loose_vertices == own.loose_vertices && report.parts == own.parts && report.substeps >= 0 &&
+         report.substeps <= kMaxSubsteps;
+}
+
+/// Whatever the bytes were: no index leads out of the world, every number is one.
+bool fits(const World& world, const Snapshot& s) {
+  const std::vector<Contact>& contacts = s.contacts.between;
+  const auto before = [](const Contact& a, const Contact& b) {
+    return std::pair(a.part, a.vertex) < std::pair(b.part, b.vertex);
+  };
+  return s.time >= 0 && s.time <= static_cast<double>(kFarthest) && fits_vertices(world, s) && fits_springs(world, s) &&
+         std::all_of(contacts.begin(), contacts.end(), [&](const Contact& c) { return fits_contact(world, c); }) &&
+         std::is_sorted(contacts.begin(), contacts.end(), before) && fits_report(s.report, world.report) &&
+         std::equal(s.parts.begin(), s.parts.end(), world.parts.begin(), world.parts.end(), fits_part);
+}
+
+/// Takes over what fits.
+void adopt(World& world, Snapshot&& s) {
+  world.time = s.time;
+  world.places = std::move(s.places);
+  world.motions = std::move(s.motions);
+  world.springs = std::move(s.springs);
+  world.contacts.between = std::move(s.contacts.between);
+  world.report = s.report;
+  for (std::size_t i = 0; i < world.parts.size(); ++i) {
+    world.parts[i].last_h = s.parts[i].last_h;
+    world.parts[i].clamped = s.parts[i].clamped;
+    world.parts[i].rotations = std::move(s.parts[i].rotations);
+  }
+}
+
 }  // namespace
 
 std::vector<std::byte> save_state(const World& world) {
@@ -115,7 +220,11 @@ void restore_state(World& world, std::span<const std::byte> bytes) {
   const std::vector<std::uint64_t> own = shape_of(world);
   if (version != kVersion || shape != hash_of(std::as_bytes(std::span(own))))
     throw InvalidInput("the saved state is of a simulation that was built otherwise");
-  visit(reader, world);
+  Snapshot snapshot;
+  snapshot.parts.resize(world.parts.size());
+  visit(reader, snapshot);
+  if (!reader.is_at_end() || !fits(world, snapshot)) throw InvalidInput("the saved state is damaged");
+  adopt(world, std::move(snapshot));
 }
 
 }  // namespace tetsoup::simulate

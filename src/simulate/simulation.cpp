@@ -27,7 +27,7 @@ struct Simulation::State {
     return b.slots[v.vertex];
   }
   Spring& spring(std::size_t number) {
-    require(number < world.springs.size() && !world.springs[number].removed, "spring", number,
+    require(number < world.springs.size() && world.springs[number].stiffness > 0, "spring", number,
             "the number of a spring that was added and not removed");
     return world.springs[number];
   }
@@ -87,8 +87,8 @@ std::size_t Simulation::add_spring(const BodyVertex& vertex, const Vec3d& target
   const std::uint32_t slot = state_->slot_of(vertex);
   require(slot != kNoSlot, "vertex", vertex.vertex, "one that a simulated tet has");
   check_point(target, "target", kMaxCoordinate);
-  require(stiffness > 0 && stiffness <= 1e12, "stiffness", stiffness, "above 0 and at most 1e12 N/m");
-  state_->world.springs.push_back({slot, to_float(target), stiffness, false});
+  require(stiffness > 0 && stiffness <= kMaxSpring, "stiffness", stiffness, "above 0 and at most 1e12 N/m");
+  state_->world.springs.push_back({slot, to_float(target), stiffness});
   return state_->world.springs.size() - 1;
 }
 
@@ -98,7 +98,7 @@ void Simulation::move_spring(std::size_t spring, const Vec3d& target) {
 }
 
 void Simulation::remove_spring(std::size_t spring) {
-  state_->spring(spring).removed = true;
+  state_->spring(spring).stiffness = 0;
 }
 
 void Simulation::step(double dt) {
@@ -110,7 +110,8 @@ void Simulation::step(double dt) {
       static_cast<int>(std::ceil(std::min(longer * world.options.contact_interval, double{kMaxSubsteps})));
   prepare_substeps(world, h);
   for (int i = 0; i < substeps; ++i) {
-    if (i % interval == 0) find_contacts(world, h * std::min(interval, substeps - i));
+    if (i % interval == 0)
+      find_contacts(world, h * std::min(interval, substeps - i), i == 0 ? Edges::Find : Edges::Keep);
     move_freely(world, h);
     solve_springs(world, h);
     solve_contacts(world, h);

@@ -75,25 +75,42 @@ struct Push {
   }
 };
 
-bool solve(const Contact& c, const Push& push, Movers& m) {
+/// A vertex, or a point between two.
+struct EdgePoint {
+  std::uint32_t a, b;
+  float along, slack;
+
+  V blend(const V& at_a, const V& at_b) const { return at_a * (1 - along) + at_b * along; }
+  V start(const Movers& m) const { return blend(m.start(a), m.start(b)); }
+  V displacement(const Movers& m) const { return blend(m.displacement(a), m.displacement(b)); }
+  float inverse_mass(const Movers& m) const {
+    return m.inverse_mass(a) * (1 - along) * (1 - along) + m.inverse_mass(b) * along * along;
+  }
+  void move(Movers& m, const V& impulse) const {
+    m.move(a, impulse * (m.inverse_mass(a) * (1 - along)));
+    if (along > 0) m.move(b, impulse * (m.inverse_mass(b) * along));
+  }
+};
+
+bool solve(const Contact& c, const EdgePoint& point, const Push& push, Movers& m) {
   const V a = m.start(c.corners[0]), b = m.start(c.corners[1]), d = m.start(c.corners[2]);
   const V n = cross(b - a, d - a);
   const float size = std::sqrt(dot(n, n));
   if (!(size > 0)) return false;
   const V normal = n * (1 / size);
-  const V apart = m.start(c.vertex) - (a * c.weights[0] + b * c.weights[1] + d * c.weights[2]);
+  const V apart = point.start(m) - (a * c.weights[0] + b * c.weights[1] + d * c.weights[2]);
   const float gap = dot(apart, normal);
   if (dot(apart, apart) - gap * gap > c.reach * c.reach) return false;
-  V u = m.displacement(c.vertex);
-  float weight = m.inverse_mass(c.vertex);
+  V u = point.displacement(m);
+  float weight = point.inverse_mass(m);
   for (std::size_t i = 0; i < 3; ++i) {
     u = u - m.displacement(c.corners[i]) * c.weights[i];
     weight += m.inverse_mass(c.corners[i]) * c.weights[i] * c.weights[i];
   }
   V correction{};
-  if (!(weight > 0) || !push.correction(u, normal, gap, c.friction, correction)) return false;
+  if (!(weight > 0) || !push.correction(u, normal, gap + point.slack, c.friction, correction)) return false;
   const V impulse = correction * (1 / weight);
-  m.move(c.vertex, impulse * m.inverse_mass(c.vertex));
+  point.move(m, impulse);
   for (std::size_t i = 0; i < 3; ++i) m.move(c.corners[i], impulse * (-c.weights[i] * m.inverse_mass(c.corners[i])));
   return true;
 }
@@ -115,7 +132,7 @@ void solve_springs(World& world, double h) {
   Movers m(world, h);
   for (const Spring& spring : world.springs) {
     const float w = m.inverse_mass(spring.slot);
-    if (spring.removed || !(w > 0)) continue;
+    if (!(spring.stiffness > 0) || !(w > 0)) continue;
     const float share = w / (w + static_cast<float>(1 / (spring.stiffness * h * h)));
     m.move(spring.slot, (V{spring.target.x, spring.target.y, spring.target.z} - m.place(spring.slot)) * share);
   }
@@ -136,7 +153,10 @@ void solve_contacts(World& world, double h) {
   Movers m(world, h);
   const Push push(h);
   world.report.contacts = world.report.touching = 0;
-  for (const Contact& c : world.contacts.between) world.report.contacts += solve(c, push, m) ? 1 : 0;
+  for (const Contact& c : world.contacts.between)
+    world.report.contacts += solve(c, {c.vertex, c.vertex, 0, 0}, push, m) ? 1 : 0;
+  for (const EdgeContact& e : world.contacts.across)
+    world.report.contacts += solve(e.contact, {e.contact.vertex, e.other_end, e.along, e.slack}, push, m) ? 1 : 0;
   for (const ObstacleContact& c : world.contacts.with_obstacles) world.report.touching += solve(c, push, m) ? 1 : 0;
 }
 

@@ -13,20 +13,21 @@ namespace {
 
 /// Tets that are worth a task.
 constexpr std::size_t kTaskTets = 1500;
-/// Batches of a colour that are worth a task.
-constexpr std::int64_t kTaskBatches = 32;
-
-/// All batches; a large piece's colours on all threads.
+/// All batches; the runs of a large piece's rounds on all threads.
 void relax(const Rest& rest, Part& part, const kernel::Substep& substep, StageWatch& watch) {
-  if (rest.piece.tets.size() <= kSharedTets) return kernel::relax_tets(rest.batches, part.rotations, substep);
-  for (std::size_t first = 0; const std::size_t end_of_colour : rest.colours) {
-    const std::size_t count = end_of_colour - first;
-    parallel_for(static_cast<std::int64_t>(count), kTaskBatches, watch, [&](std::int64_t begin, std::int64_t end) {
-      const std::size_t at = first + static_cast<std::size_t>(begin), many = static_cast<std::size_t>(end - begin);
-      kernel::relax_tets(std::span(rest.batches).subspan(at, many), std::span(part.rotations).subspan(at, many),
+  std::size_t first = 0;  // batch of the round
+  for (const std::vector<std::size_t>& ends : rest.rounds) {
+    const auto relax_run = [&](std::int64_t i, std::int64_t) {
+      const auto run = static_cast<std::size_t>(i);
+      const std::size_t begin = run == 0 ? first : ends[run - 1], count = ends[run] - begin;
+      kernel::relax_tets(std::span(rest.batches).subspan(begin, count), std::span(part.rotations).subspan(begin, count),
                          substep);
-    });
-    first = end_of_colour;
+    };
+    if (ends.size() == 1)
+      relax_run(0, 1);
+    else
+      parallel_for(static_cast<std::int64_t>(ends.size()), 1, watch, relax_run);
+    first = ends.back();
   }
 }
 
@@ -88,7 +89,7 @@ int count_substeps(const World& world, double dt) {
   const bool implicit = world.options.solver == Solver::Implicit;
   double h = dt / world.options.substeps;
   if (implicit)
-    for (const Rest& rest : world.rests) h = std::min(h, rest.wave_time(rest.piece.mean_edge));
+    for (const Rest& rest : world.rests) h = std::min(h, kMostEdges * rest.wave_time(rest.piece.mean_edge));
   else
     for (const SpringNet& net : world.nets) h = std::min(h, net.stable_time_step);
   const int most = implicit ? std::max(world.options.substeps, world.options.max_substeps) : kMaxSubsteps;

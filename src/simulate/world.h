@@ -39,8 +39,7 @@ struct Body {
 struct Spring {
   std::uint32_t slot = 0;
   Vec3 target;
-  double stiffness = 0;
-  bool removed = false;
+  double stiffness = 0;  ///< N/m; 0 once it is removed.
 };
 
 struct Attachment {
