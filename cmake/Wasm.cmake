@@ -9,7 +9,9 @@ add_link_options(-sALLOW_MEMORY_GROWTH -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=2G
 set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
 if(TETSOUP_POOL)
   add_compile_options(-pthread)
-  add_link_options(-pthread)
+  # The threads are there before they are asked for: one that works cannot wait for the browser to make them.
+  add_link_options(-pthread -Wno-pthreads-mem-growth
+    "-sPTHREAD_POOL_SIZE=(typeof navigator=='object'&&navigator.hardwareConcurrency||2)-1")
 endif()
 
 set(wasm_headers ${PROJECT_BINARY_DIR}/headers)

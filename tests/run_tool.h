@@ -110,7 +110,6 @@ class ToolTest : public testing::Test {
     return outcome;
   }
 
- private:
   /// The tool runs in the test's folder, so that tests may use plain file names.
   pid_t start(const std::vector<std::string>& arguments, posix_spawn_file_actions_t& actions) const {
     std::vector<std::string> words{"sh", "-c", "cd \"$0\" && TERM=xterm exec \"$@\"", folder_.string(), TETSOUP_CLI};
@@ -137,6 +136,7 @@ class ToolTest : public testing::Test {
     return WEXITSTATUS(status);
   }
 
+ private:
   /// What a terminal has to show within a moment.
   static std::string read_waiting(int terminal) {
     std::string text;

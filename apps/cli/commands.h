@@ -22,5 +22,6 @@ void add_inspect_command(CLI::App& app);
 void add_field_command(CLI::App& app);
 void add_sample_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_studio_command(CLI::App& app);
 
 }  // namespace tetsoup::cli

@@ -26,7 +26,7 @@ std::string describe_unknown(const CLI::App& app, const std::string& word) {
   std::error_code ignored;
   if (std::filesystem::exists(word, ignored))
     return fmt::format("{0}: name a command first, as in tetsoup mesh {0} -o out.msh", word);
-  return word + ": there is no such command; there are mesh, inspect, field, sample and simulate";
+  return word + ": there is no such command; there are mesh, inspect, field, sample, simulate and studio";
 }
 
 /// The library lists what it did not expect from back to front, values of unknown options among it.

@@ -35,6 +35,7 @@ constexpr const char* kExamples =
     "  tetsoup inspect torus.msh                    see how good the tets are\n"
     "  tetsoup mesh --help                          all that can be chosen\n"
     "  tetsoup simulate drop                        let a soft robot fall\n"
+    "  tetsoup studio                               all of it by hand, in the browser\n"
     "\n"
     "Exit codes: 0 done, 1 internal error or out of memory, 2 wrong usage or option, 3 a file cannot be read or\n"
     "written, 4 nothing in the file can be meshed, 130 cancelled.";
@@ -90,6 +91,7 @@ int run(int argc, char** argv) {
   add_field_command(app);
   add_sample_command(app);
   add_simulate_command(app);
+  add_studio_command(app);
   if (argc <= 1) {
     fmt::print("{}", kShortHelp);
     return 0;

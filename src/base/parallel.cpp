@@ -32,7 +32,7 @@ int thread_count() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
-#else
+#elif !defined(TETSOUP_WITH_POOL)
 
 void set_thread_count(int threads) {
   require(threads >= 0, "threads", threads, "0 (all cores) or more");

@@ -23,6 +23,10 @@
 
 namespace tetsoup {
 
+/// Calls run(context, chunk) for every chunk, on the threads of base/thread_pool.cpp and on this one; on this one alone
+/// where the chunks are those of a loop within a loop, or of a second caller. What is thrown first is thrown here.
+void run_chunks_in_pool(std::int64_t chunks, void (*run)(const void* context, std::int64_t chunk), const void* context);
+
 /// Progress of one stage. Made on the thread that called the stage; only that thread calls back.
 class StageWatch {
  public:
@@ -95,6 +99,10 @@ void parallel_for(std::int64_t count, std::int64_t grain, StageWatch& watch, con
         for (std::int64_t chunk = range.begin(); chunk != range.end(); ++chunk) run_chunk(chunk);
       },
       tbb::simple_partitioner());
+#elif defined(TETSOUP_WITH_POOL)
+  run_chunks_in_pool(
+      chunks, [](const void* run, std::int64_t chunk) { (*static_cast<const decltype(run_chunk)*>(run))(chunk); },
+      &run_chunk);
 #else
   for (std::int64_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
 #endif

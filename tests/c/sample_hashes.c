@@ -1,5 +1,5 @@
-/* Every sample from soup to sixty steps of its fall, as numbers that are the same on every machine: printed by the native
- * build and in WebAssembly, and compared. */
+/* Every sample from soup to sixty steps of its fall, as numbers that are the same on every machine: printed by the
+ * native build and in WebAssembly, and compared. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,7 +63,9 @@ static void print_fall_hashes(const tetsoup_model* model) {
   tetsoup_simulation_destroy(simulation);
 }
 
-int main(void) {
+/* Options of the mesh may be given as JSON. */
+int main(int argc, char** argv) {
+  const char* const options = argc > 1 ? argv[1] : "{\"voxels\": 64, \"tets\": 1000}";
   size_t i;
   for (i = 0; i < sizeof kSamples / sizeof kSamples[0]; ++i) {
     tetsoup_soup* soup = NULL;
@@ -74,7 +76,7 @@ int main(void) {
     ok(tetsoup_soup_vertices(soup, &vertices));
     printf("%s soup %016" PRIx64, kSamples[i], hash_floats(vertices));
     ok(tetsoup_pipeline_create(soup, NULL, NULL, &pipeline));
-    ok(tetsoup_pipeline_run(pipeline, "{\"voxels\": 64, \"tets\": 1000}", NULL, NULL));
+    ok(tetsoup_pipeline_run(pipeline, options, NULL, NULL));
     print_stage_hashes(pipeline);
     ok(tetsoup_model_create(pipeline, kSamples[i], NULL, NULL, &model));
     print_fall_hashes(model);

@@ -1,4 +1,5 @@
-/* All of the C interface, as a C program sees it: from a sample to a mesh, its surface, files, a falling body, a scene. */
+/* All of the C interface, as a C program sees it: from a sample to a mesh, its surface, files, a falling body, a scene.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,12 +7,12 @@
 
 #include "tetsoup/tetsoup.h"
 
-#define CHECK(condition)                                                                              \
-  do {                                                                                                \
-    if (!(condition)) {                                                                               \
-      fprintf(stderr, "%s:%d: %s\n  %s\n", __FILE__, __LINE__, #condition, tetsoup_last_error());     \
-      exit(1);                                                                                        \
-    }                                                                                                 \
+#define CHECK(condition)                                                                          \
+  do {                                                                                            \
+    if (!(condition)) {                                                                           \
+      fprintf(stderr, "%s:%d: %s\n  %s\n", __FILE__, __LINE__, #condition, tetsoup_last_error()); \
+      exit(1);                                                                                    \
+    }                                                                                             \
   } while (0)
 #define OK(call) CHECK((call) == TETSOUP_OK)
 
@@ -127,8 +128,8 @@ static void tour_simulation(const tetsoup_model* model) {
   int step;
   OK(tetsoup_simulation_create("{\"substeps\": 8}", &simulation));
   OK(tetsoup_simulation_add_plane(simulation, up, 0, 0.5));
-  OK(tetsoup_simulation_add_model(simulation, model, "{\"young\": 5e4}",
-                                  "{\"scale\": 0.01, \"translate\": [0, 0, 1]}", &body));
+  OK(tetsoup_simulation_add_model(simulation, model, "{\"young\": 5e4}", "{\"scale\": 0.01, \"translate\": [0, 0, 1]}",
+                                  &body));
   OK(tetsoup_simulation_add_mesh(simulation, corners, 4, tet, 1, NULL, NULL, &single));
   OK(tetsoup_simulation_body_count(simulation, &count));
   CHECK(body == 0 && single == 1 && count == 2);
