@@ -131,7 +131,16 @@ export class App {
     this.root.append(this.exporter.element);
     this.root.dataset.threads = String(catalog.threads);
     this.viewport.setView(this.store.now.view);
-    if (this.store.now.sample) this.loadSample();
+    const served = new URLSearchParams(location.search).get('model');
+    if (served) void this.openServed(served);
+    else if (this.store.now.sample) this.loadSample();
+  }
+
+  /** The model that `tetsoup studio FILE` serves beside the page. */
+  private async openServed(name: string): Promise<void> {
+    const answer = await fetch(`model/${encodeURIComponent(name)}`);
+    if (answer.ok) await this.openFile(new File([await answer.arrayBuffer()], name));
+    else this.complain(`${name} is not there any more. Open a file, or choose a sample.`);
   }
 
   private onSoup(surface: { vertices: Float32Array; triangles: Uint32Array }, report: SoupReport): void {

@@ -16,7 +16,7 @@ export function emptyState(catalog: Catalog | null, open: () => void, sample: (n
       el('span', { class: 'unit' }, 'or drop it here: OBJ, STL, PLY, OFF or GLB')),
     catalog ? el('div', { class: 'triple' }, el('p', {}, 'Or try a sample'), el('div', { class: 'samples' }, ...samples))
       : el('p', { role: 'status' }, 'Loading the mesher …'),
-    catalog && el('p', {}, 'Or just watch: ', el('button', { type: 'button', onclick: robots }, icon('play'), 'four robots fall on a tree'))));
+    catalog && el('p', { class: 'watch-line' }, 'Or just watch', el('button', { type: 'button', id: 'watch', onclick: robots }, icon('play'), 'Four robots fall on a tree'))));
 }
 
 /** A drop anywhere on the page opens the file. */

@@ -83,11 +83,11 @@ export class Panels {
       hint: 'Share of a sample’s triangles that is taken away at random, to see holes being closed.' });
     this.bindings.push((s) => (damage.hidden = !s.sample));
     this.put('soup', pick, el('button', { type: 'button', onclick: () => this.actions.open() }, 'Open a file …'), damage,
-      this.bind(choice({ id: 'up', label: 'Up', hint: 'The axis of the model that points up: in the view, when it falls, and in files for engines.',
+      el('div', { class: 'pair' }, this.bind(choice({ id: 'up', label: 'Up', hint: 'The axis of the model that points up: in the view, when it falls, and in files for engines.',
         choices: [['x', 'x'], ['y', 'y'], ['z', 'z']], change: (up) => this.store.set({ up }) }), (s) => s.up),
       this.bind(select({ id: 'unit', label: 'Unit', hint: 'What a length of 1 in the file means. Engines get metres.',
         choices: Object.entries(kUnits).map(([k, u]) => [k as Settings['unit'], u.label] as const),
-        change: (unit) => this.store.set({ unit }) }), (s) => s.unit));
+        change: (unit) => this.store.set({ unit }) }), (s) => s.unit)));
   }
 
   private fillVolume(): void {
@@ -160,8 +160,8 @@ export class Panels {
   }
 
   private fillEmbedding(): void {
-    const hang = this.need(el('button', { type: 'button', id: 'hang', onclick: () => this.actions.embed() }, 'Check the embedding'));
-    const show = this.need(el('button', { type: 'button', onclick: () => this.actions.showSurface() }, 'Show the surface'));
+    const hang = this.need(el('button', { type: 'button', id: 'hang', onclick: () => this.actions.embed() }, 'Check it'));
+    const show = this.need(el('button', { type: 'button', onclick: () => this.actions.showSurface() }, 'Show it'));
     this.put('embedding', el('p', { class: 'unit' }, 'The model’s own surface hangs on the tets and follows them.'), el('div', { class: 'row' }, hang, show));
   }
 

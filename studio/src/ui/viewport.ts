@@ -51,7 +51,7 @@ export class Viewport {
     shown.show('surface');
     this.playBar = el('div', { class: 'row', hidden: true }, strip(shown.element), this.pauseButton,
       el('button', { type: 'button', id: 'reset', onclick: () => actions.reset() }, icon('reset'), 'Reset'),
-      el('button', { type: 'button', id: 'back', onclick: () => actions.stop() }, icon('close'), 'Back to the mesh'));
+      el('button', { type: 'button', id: 'back', onclick: () => actions.stop() }, icon('close'), 'Back'));
     this.cutTool = this.makeCutTool();
     [this.clipTool, this.clipRows] = this.makeClipTool();
     this.element = el('main', { class: 'without-model', 'aria-label': 'Model' }, this.canvas,
@@ -149,18 +149,21 @@ export class Viewport {
 
   showVotes(slice: Slice | null, dark: boolean): void {
     this.legend.hidden = slice === null;
+    this.legend.classList.remove('histogram-only');
     if (!slice) return;
     const rays = slice.grid.rays || 26;
     this.legend.replaceChildren(
       el('strong', {}, 'Rays that say “inside”'),
       el('div', { class: 'scale', style: `background: ${gradient(kVoteStops[dark ? 'dark' : 'light'])}` }),
       el('div', { class: 'ends' }, el('span', {}, 'none: outside'), el('span', {}, `all ${rays}: inside`)),
-      el('div', {}, el('span', { class: 'swatch', style: `background: ${kBandColor}` }), 'A surface is felt here (reach k)'),
+      el('div', {}, el('span', { class: 'swatch', style: `background: ${kBandColor}` }), 'Near a triangle, by reach k'),
       el('div', {}, `Layer ${slice.layer + 1} of ${slice.grid.size[slice.axis]}`));
   }
 
   showAngles(bins: readonly number[], byQuality: boolean): void {
     this.legend.hidden = false;
+    // On small screens there is room for a scale, but not for a histogram alone.
+    this.legend.classList.toggle('histogram-only', !byQuality);
     const scale = [
       el('strong', {}, 'Smallest angle of each tet'),
       el('div', { class: 'scale', style: `background: ${gradient(kAngleStops)}` }),

@@ -1,13 +1,18 @@
 // Bodies that move, what they fall onto, and the hand that pulls them.
-import { Box3, BufferAttribute, BufferGeometry, CircleGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, GridHelper, Plane, Vector3 } from 'three';
+import {
+  Box3, BufferAttribute, BufferGeometry, Fog, GridHelper, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, Plane,
+  PlaneGeometry, Vector3,
+} from 'three';
 import type { Frame, PlayStart, Vec3 } from '../core/protocol';
 import type { Stage } from './stage';
 import { SurfaceLayer } from './surface_layer';
 import { TetLayer } from './tet_layer';
 
-const kGroundRadius = 6;
-/** The scene that is looked at in the beginning: of bodies and obstacles, with some room to fall. */
-const kRoomBelow = 0;
+/** Half of the ground's side, in metres; mist hides where it ends. */
+const kGround = 16;
+const kLineEvery = 0.5;
+/** Where mist begins and where nothing is seen any more, in distances of the camera. */
+const kMist = [1.15, 3];
 
 export interface Hand {
   grab(body: number, vertex: number, target: Vec3): void;
@@ -24,7 +29,7 @@ interface Shown {
 export class PlayView extends Group {
   private bodies: Shown[] = [];
   private obstacles: SurfaceLayer[] = [];
-  private readonly ground = new Mesh(new CircleGeometry(kGroundRadius, 64), new MeshBasicMaterial());
+  private readonly ground = new Mesh(new PlaneGeometry(2 * kGround, 2 * kGround), new MeshBasicMaterial());
   private grid: GridHelper | null = null;
   private showTets = false;
   private quality = false;
@@ -72,19 +77,22 @@ export class PlayView extends Group {
     this.visible = false;
     this.rope.visible = false;
     this.pulling = null;
+    this.stage.scene.fog = null;
   }
 
   setPalette(): void {
     const { palette } = this.stage;
-    this.bodies.forEach((b) => {
-      b.surface.setColors(palette.surface, palette.edge);
-      b.tets.setPalette(palette, palette.tets);
+    this.bodies.forEach((b, i) => {
+      const color = palette.bodies[i % palette.bodies.length];
+      b.surface.setColors(color, palette.edge);
+      b.tets.setPalette(palette, color);
     });
     this.obstacles.forEach((o) => o.setColors(palette.obstacle, palette.edge));
+    if (this.stage.scene.fog) this.stage.scene.fog.color.set(palette.background);
     this.ground.material.color.set(palette.ground);
     this.rope.material.color.set(palette.accent);
     this.grid?.removeFromParent();
-    this.grid = new GridHelper(2 * kGroundRadius, 4 * kGroundRadius, palette.grid, palette.grid);
+    this.grid = new GridHelper(2 * kGround, (2 * kGround) / kLineEvery, palette.grid, palette.grid);
     this.grid.rotation.x = Math.PI / 2;
     this.add(this.grid);
   }
@@ -127,10 +135,12 @@ export class PlayView extends Group {
     this.bodies.forEach((b) => box.union(new Box3().setFromArray(b.positions)));
     this.obstacles.forEach((o) => box.expandByObject(o));
     const size = box.getSize(new Vector3());
-    box.min.z = Math.min(box.min.z, kRoomBelow);
+    box.min.z = Math.min(box.min.z, 0);
     const side = Math.max(size.x, size.y, 0.6) * 0.12;
     box.expandByVector(new Vector3(side, side, 0));
     this.stage.fit(box, true, new Vector3(0.45, -1, 0.32));
+    const distance = this.stage.camera.position.distanceTo(this.stage.controls.target);
+    this.stage.scene.fog = new Fog(this.stage.palette.background, kMist[0] * distance, kMist[1] * distance);
   }
 
   private drawRope(): void {
