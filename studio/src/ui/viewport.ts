@@ -38,8 +38,8 @@ export class Viewport {
   private readonly flags = new Map<string, HTMLButtonElement>();
   playTets = false;
 
-  constructor(private readonly actions: ViewportActions) {
-    this.views = choice({ id: 'view', label: 'View', hint: 'What is shown; also keys 1 to 5.', choices: kViews, change: (view) => actions.view(view) });
+  constructor(private readonly actions: ViewportActions, views: readonly (readonly [View, string])[] = kViews) {
+    this.views = choice({ id: 'view', label: 'View', hint: 'What is shown; also keys 1 to 5.', choices: views, change: (view) => actions.view(view) });
     this.viewBar = strip(this.views.element);
     const fit = el('button', { type: 'button', class: 'icon', title: 'Fit to view (F)', 'aria-label': 'Fit to view', onclick: () => actions.fit() }, icon('fit'));
     this.pauseButton = el('button', { type: 'button', id: 'pause', onclick: () => actions.pause() }, icon('pause'), 'Pause');

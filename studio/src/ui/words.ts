@@ -14,8 +14,13 @@ export function count(n: number, one: string, many = one + 's'): string {
   return `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
 }
 
-/** Three digits, in the unit that keeps them readable. */
-export function length(value: number, unit: Settings['unit']): string {
+/** Lengths in a unit that is not known stay as they are. */
+export type Unit = Settings['unit'] | 'own';
+type Wanted = Pick<Settings, 'tets' | 'cavities'> & { unit: Unit };
+
+/** Two digits, in the unit that keeps them readable. */
+export function length(value: number, unit: Unit): string {
+  if (unit === 'own') return String(Number(value.toPrecision(2)));
   const metres = value * kUnits[unit].metres;
   if (metres === 0) return '0';
   const [scale, name] = metres >= 1 ? [1, 'm'] : metres >= 0.01 ? [100, 'cm'] : [1000, 'mm'];
@@ -26,7 +31,7 @@ export function milliseconds(ms: number): string {
   return ms < 10 ? `${ms.toFixed(1)} ms` : ms < 2000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`;
 }
 
-export function ofSoup(r: SoupReport, unit: Settings['unit']): Sentence[] {
+export function ofSoup(r: SoupReport, unit: Unit): Sentence[] {
   const size = r.box.hi.map((hi, i) => length(hi - r.box.lo[i], unit)).join(' × ');
   const said = [say(`${count(r.used_triangles, 'triangle')}, ${size}.`)];
   if (r.class === 'empty') return [say('There is no usable triangle in this file. Choose another one.', 'watch')];
@@ -39,7 +44,7 @@ export function ofSoup(r: SoupReport, unit: Settings['unit']): Sentence[] {
   return said;
 }
 
-export function ofVolume(r: Report, s: Settings): Sentence[] {
+export function ofVolume(r: Report, s: Wanted): Sentence[] {
   const p = r.pseudo_volume;
   const said: Sentence[] = [];
   if (!p.inside_voxels) {
@@ -55,7 +60,7 @@ export function ofVolume(r: Report, s: Settings): Sentence[] {
   return said;
 }
 
-export function ofLattice(r: Report, s: Settings): Sentence[] {
+export function ofLattice(r: Report, s: Wanted): Sentence[] {
   const l = r.lattice;
   if (!l.tet_count) return [say('No tet is left. Lower the share that must be inside, or ask for more tets.', 'watch')];
   const said = [say(`${count(l.tet_count, 'tet')} with edges of ${length(l.mean_edge, s.unit)} on average.`)];
@@ -80,7 +85,7 @@ export function ofSmoothing(r: Report): Sentence[] {
   return said;
 }
 
-export function ofEmbedding(r: EmbedReport, unit: Settings['unit']): Sentence[] {
+export function ofEmbedding(r: EmbedReport, unit: Unit): Sentence[] {
   const e = r.embedding;
   const all = e.inside + e.outside;
   const said = [say(`${count(all, 'vertex', 'vertices')} of the model hang on the tets; ${Math.round((100 * e.inside) / Math.max(all, 1))} % lie inside one.`)];

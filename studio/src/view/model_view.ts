@@ -1,7 +1,7 @@
 // All that can be seen of a soup and its mesh, and which of it is shown.
 import { AxesHelper, Box3, BoxGeometry, EdgesGeometry, Euler, Group, LineBasicMaterial, LineSegments, Vector3 } from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
-import type { Box, MeshResult, Slice, Surface, Vec3 } from '../core/protocol';
+import type { Box, MeshResult, Slice, Surface, Tets, Vec3 } from '../core/protocol';
 import type { View } from '../state';
 import { SliceLayer } from './slice_layer';
 import type { Stage } from './stage';
@@ -66,6 +66,12 @@ export class ModelView {
     this.cell = result.report.lattice.cell_size;
     this.hasMesh = true;
     if (result.slice) this.slice.set(result.slice);
+  }
+
+  /** The finished mesh alone, as reports have it. */
+  setFinal(tets: Tets): void {
+    this.final.set(tets);
+    this.hasMesh = true;
   }
 
   setSlice(slice: Slice): void {
