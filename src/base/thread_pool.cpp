@@ -66,7 +66,8 @@ class Pool {
     if (sleepers_ > 0) wake();
     take_chunks();
     open_ = 0;
-    while (inside_ > 0) std::this_thread::yield();
+    for (int turn = 0; inside_ > 0; ++turn)
+      if (turn > kTurns) std::this_thread::yield();
     if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   }
 

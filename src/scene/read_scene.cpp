@@ -185,11 +185,11 @@ std::string place_in(std::string_view text, std::size_t byte) {
 }
 
 /// The library would take the last of keys that are given twice.
-Json parse_json(std::string_view text) {
+Json parse_json(std::string_view text, const char* name) {
   constexpr int kDeepest = 16;  // scenes are five deep
   std::vector<std::set<std::string>> open;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth > kDeepest) throw Problem("the text", "brackets are nested too deeply");
+    if (depth > kDeepest) throw Problem(name, "brackets are nested too deeply");
     if (event == Json::parse_event_t::object_start) open.emplace_back();
     if (event == Json::parse_event_t::object_end) open.pop_back();
     if (event == Json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second)
@@ -205,7 +205,7 @@ Json parse_json(std::string_view text) {
     throw Problem(place_in(text, error.byte),
                   first == std::string::npos ? "this is not JSON" : "not JSON: " + what.substr(first, reason - first));
   } catch (const Json::exception&) {
-    throw Problem("the text", "a number is too large");
+    throw Problem(name, "a number is too large");
   }
 }
 
@@ -214,7 +214,7 @@ Json parse_json(std::string_view text) {
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name) {
   try {
-    const nlohmann::json json = scene::parse_json(text);
+    const nlohmann::json json = scene::parse_json(text, "the scene");
     scene::Reader reader("", json);
     Scene result;
     scene::visit_fields(reader, result);
@@ -234,7 +234,7 @@ namespace {
 template <class Struct>
 Struct parse_part(std::string_view text, const char* name) {
   try {
-    const Json json = parse_json(text);
+    const Json json = parse_json(text, name);
     Reader reader(name, json);
     Struct result;
     visit_fields(reader, result);
