@@ -9,7 +9,6 @@ export interface Palette {
   cut: string;
   lattice: string;
   edge: string;
-  ground: string;
   grid: string;
   obstacle: string;
   accent: string;
@@ -19,12 +18,12 @@ export interface Palette {
 
 export const kLight: Palette = {
   background: '#eef0f3', surface: '#c9ced6', tets: '#b9c4d0', cut: '#7fb8b4', lattice: '#c4c9d4', edge: '#1f2a37',
-  ground: '#e2e5ea', grid: '#b5bcc6', obstacle: '#8f8a7d', accent: '#0f766e',
+  grid: '#b5bcc6', obstacle: '#8f8a7d', accent: '#0f766e',
   bodies: ['#86bdb8', '#dba96f', '#a3aedb', '#cf9aa8'],
 };
 export const kDark: Palette = {
   background: '#14181d', surface: '#8f98a5', tets: '#7d8b9b', cut: '#3f9a93', lattice: '#838b99', edge: '#05080b',
-  ground: '#1c2128', grid: '#39424d', obstacle: '#7a7466', accent: '#2dd4bf',
+  grid: '#39424d', obstacle: '#7a7466', accent: '#2dd4bf',
   bodies: ['#4f9f98', '#c08a4c', '#7f8cc4', '#b57889'],
 };
 

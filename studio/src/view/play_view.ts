@@ -1,36 +1,17 @@
 // Bodies that move, what they fall onto, and the hand that pulls them.
 import {
-  Box3, BufferAttribute, BufferGeometry, CanvasTexture, Fog, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, Plane,
-  PlaneGeometry, RepeatWrapping, SRGBColorSpace, Vector3,
+  Box3, BufferAttribute, BufferGeometry, Fog, GridHelper, Group, Line, LineBasicMaterial, Plane, Vector3,
 } from 'three';
 import type { Frame, PlayStart, Vec3 } from '../core/protocol';
 import type { Stage } from './stage';
 import { SurfaceLayer } from './surface_layer';
 import { TetLayer } from './tet_layer';
 
-/** Half of the ground's side, in metres; mist hides where it ends. */
-const kGround = 16;
+/** Half of the ground's side, in metres, of which lines are drawn; mist hides where they end. */
+const kGround = 10;
 const kLineEvery = 0.5;
 /** Where mist begins and where nothing is seen any more, in distances of the camera. */
 const kMist = [1.15, 3];
-
-/** Lines on the ground as a picture: cheaper than lines, and thin out far away. */
-function squares(ground: string, line: string, count: number): CanvasTexture {
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = 128;
-  const pen = canvas.getContext('2d') as CanvasRenderingContext2D;
-  pen.fillStyle = ground;
-  pen.fillRect(0, 0, canvas.width, canvas.height);
-  pen.strokeStyle = line;
-  pen.lineWidth = 3;
-  pen.strokeRect(0, 0, canvas.width, canvas.height);
-  const texture = new CanvasTexture(canvas);
-  texture.colorSpace = SRGBColorSpace;
-  texture.wrapS = texture.wrapT = RepeatWrapping;
-  texture.repeat.set(count, count);
-  texture.anisotropy = 4;
-  return texture;
-}
 
 export interface Hand {
   grab(body: number, vertex: number, target: Vec3): void;
@@ -47,7 +28,7 @@ interface Shown {
 export class PlayView extends Group {
   private bodies: Shown[] = [];
   private obstacles: SurfaceLayer[] = [];
-  private readonly ground = new Mesh(new PlaneGeometry(2 * kGround, 2 * kGround), new MeshBasicMaterial());
+  private grid: GridHelper | null = null;
   private showTets = false;
   private quality = false;
   private edges = false;
@@ -59,10 +40,9 @@ export class PlayView extends Group {
   constructor(private readonly stage: Stage, hand: Hand) {
     super();
     this.visible = false;
-    this.ground.position.z = -0.004;
     this.rope.visible = false;
     this.rope.frustumCulled = false;
-    this.add(this.ground, this.rope);
+    this.add(this.rope);
     stage.scene.add(this);
     this.listen(hand);
   }
@@ -107,9 +87,10 @@ export class PlayView extends Group {
     this.obstacles.forEach((o) => o.setColors(palette.obstacle, palette.edge));
     if (this.stage.scene.fog) this.stage.scene.fog.color.set(palette.background);
     this.rope.material.color.set(palette.accent);
-    this.ground.material.map?.dispose();
-    this.ground.material.map = squares(palette.ground, palette.grid, (2 * kGround) / kLineEvery);
-    this.ground.material.needsUpdate = true;
+    this.grid?.removeFromParent();
+    this.grid = new GridHelper(2 * kGround, (2 * kGround) / kLineEvery, palette.grid, palette.grid);
+    this.grid.rotation.x = Math.PI / 2;
+    this.add(this.grid);
   }
 
   setLook(tets: boolean, edges: boolean, quality: boolean): void {
