@@ -58,7 +58,8 @@ export class App {
       (translate, rotate) => this.store.set({ translate, rotate }), () => this.store.endStep());
     this.client = new Client((reply) => this.onReply(reply));
     this.play = new Play(this.client, this.stage, this.viewport,
-      () => ({ up: kUpAxis[this.store.now.up], young: 10 ** this.store.now.stiffness }), () => this.showLook());
+      () => ({ up: kUpAxis[this.store.now.up], young: 10 ** this.store.now.stiffness }), () => this.showLook(),
+      ({ frames, framesPerSecond, simulate, draw }) => Object.assign(this.root.dataset, { frames, fps: framesPerSecond.toFixed(1), simulate: simulate.toFixed(1), draw: draw.toFixed(1) }));
     this.theme = new Theme((dark) => this.paint(dark));
     this.theme.apply();
     this.store.onChange((now, before) => this.onSettings(now, before));

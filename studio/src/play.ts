@@ -26,7 +26,8 @@ export class Play {
   private tetCount = 0;
 
   constructor(private readonly client: Client, private readonly stage: Stage, private readonly viewport: Viewport,
-              private readonly settings: () => { up: number; young: number }, private readonly changed: () => void) {
+              private readonly settings: () => { up: number; young: number }, private readonly changed: () => void,
+              private readonly noted: (stats: PlayStats) => void) {
     this.view = new PlayView(stage, {
       grab: (body, vertex, target: Vec3) => client.send({ type: 'grab', body, vertex, target }),
       drag: (target: Vec3) => client.send({ type: 'drag', target }),
@@ -71,6 +72,7 @@ export class Play {
     stats.draw = mean('draw');
     const time = arrivals[arrivals.length - 1].at - arrivals[0].at;
     stats.framesPerSecond = time > 0 ? (1000 * (arrivals.length - 1)) / time : 0;
+    this.noted(stats);
     if (stats.frames % 6 !== 1) return;
     this.viewport.setStatus(`${Math.round(stats.framesPerSecond)} frames/s · ${this.tetCount.toLocaleString('en')} tets · `
       + `simulating ${milliseconds(stats.simulate)}, drawing ${milliseconds(stats.draw)}`);
