@@ -18,6 +18,7 @@
 #include "summary.h"
 #include "tetsoup/error.h"
 #include "tetsoup/io.h"
+#include "tetsoup/report.h"
 
 namespace tetsoup::cli {
 
@@ -29,6 +30,7 @@ struct MeshCommand {
   ModelOptions model;
   std::optional<std::string> json;
   std::optional<std::string> preview;
+  std::optional<std::string> page;
   MeshOptions options;
   Material material;
   bool material_is_default = true;
@@ -63,6 +65,7 @@ std::vector<PlannedMesh> check_outputs(const MeshCommand& command) {
   std::vector<PlannedMesh> planned = plan_meshes(command.meshes, outputs);
   if (command.model.embed) add_embedding(outputs, *command.model.embed);
   if (command.preview) outputs.add("--preview", *command.preview, ".png");
+  if (command.page) outputs.add("--report", *command.page, ".html");
   if (command.json && *command.json != "-") outputs.add("--json", *command.json);
   return planned;
 }
@@ -140,6 +143,19 @@ void draw_preview(const std::string& path, std::optional<UpAxis> up, MeshRun& ru
   run.seconds.preview = watch.seconds();
 }
 
+void write_page(const MeshCommand& command, MeshRun& run, NewFiles& files) {
+  ReportPage page;
+  page.title = std::filesystem::path(run.input).filename().string();
+  page.mesh = &run.pipeline->smooth().mesh;
+  page.soup = &run.pipeline->soup().soup;
+  page.up = std::string(1, "xyz"[static_cast<std::size_t>(run.model.up)]);
+  page.metres_per_unit = run.material.metres_per_unit;
+  page.json = mesh_report_json(run);
+  files.expect(*command.page);
+  write_report_page(*command.page, page);
+  run.outputs.push_back(*command.page);
+}
+
 void run_mesh(MeshCommand& command) {
   const Stopwatch watch;
   check_input(command.input);
@@ -159,9 +175,9 @@ void run_mesh(MeshCommand& command) {
   run.options = command.options;
   run.pipeline = &pipeline;
   take_stage_times(run);
-  if (!command.run.quiet || command.json || command.preview) {  // or nobody would see it
+  if (!command.run.quiet || command.json || command.preview || command.page) {  // or nobody would see it
     bar.show("measure");
-    measure(run, command.json.has_value());
+    measure(run, command.json.has_value() || command.page.has_value());
   }
   run.model = make_model(run, command.model, std::move(surface), bar);
   bar.show("write");
@@ -171,6 +187,7 @@ void run_mesh(MeshCommand& command) {
   bar.clear();
   throw_if_interrupted();
   run.seconds.total = watch.seconds();
+  if (command.page) write_page(command, run, files);
   if (command.json) {
     if (*command.json != "-") files.expect(*command.json);
     write_report(*command.json, mesh_report_json(run));
@@ -206,6 +223,10 @@ void add_mesh_command(CLI::App& app) {
   add_flag(
       *mesh, "--preview", "FILE", [command](const std::string& text) { command->preview = text; },
       "Draw soup, votes, lattice and mesh into a .png")
+      ->group("Reports");
+  add_flag(
+      *mesh, "--report", "FILE", [command](const std::string& text) { command->page = text; },
+      "Write one .html that shows the mesh in 3D, histograms, settings and\ntimes in any browser, offline")
       ->group("Reports");
   add_run_flags(*mesh, command->run);
   mesh->callback([command, mesh] {

@@ -2,6 +2,7 @@
 // not exist (NaN, infinity) are null; angles are degrees.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "tetsoup/pipeline.h"
@@ -9,6 +10,7 @@
 #include "tetsoup/readiness.h"
 #include "tetsoup/simulate.h"
 #include "tetsoup/tet_model.h"
+#include "tetsoup/types.h"
 
 namespace tetsoup {
 
@@ -29,5 +31,22 @@ std::string to_json(const Energy& energy);
 /// Arrays: name, material and number of tets of every region; name and number of vertices of all pins.
 std::string regions_json(const TetModel& model);
 std::string pins_json(const TetModel& model);
+
+/// A report that people look at.
+struct ReportPage {
+  std::string title = "mesh";          ///< Such as the file's name.
+  const TetMesh* mesh = nullptr;       ///< Must be there.
+  const TriangleSoup* soup = nullptr;  ///< Shown around it, if it is there.
+  std::string up = "z";                ///< The axis that points up: "x", "y" or "z".
+  double metres_per_unit = 1;          ///< 1: lengths are shown without a unit.
+  std::string json;                    ///< Object as `tetsoup mesh --json` writes; what it lacks is not shown.
+};
+
+/// One page of HTML that needs nothing else, and no network: the mesh in 3D with a plane that cuts it, the histogram of
+/// its angles, and what the JSON says. The page is made of the studio's views.
+/// @throws InvalidInput  without a mesh, for another `up`, or if the JSON is none.
+std::string report_page(const ReportPage& page);
+/// @throws IoError  if it cannot be written; the file is there whole or not at all.
+void write_report_page(const std::filesystem::path& path, const ReportPage& page);
 
 }  // namespace tetsoup

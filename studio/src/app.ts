@@ -1,0 +1,400 @@
+// The page: what the user does becomes settings, settings become wishes to the worker, and replies become pictures.
+import { Client } from './core/client';
+import type { Catalog, MeshResult, Reply, Report, Slice, SoupReport } from './core/protocol';
+import { Play } from './play';
+import { fromAddress, kUnits, meshOptions, type Settings, Store, toAddress, type View } from './state';
+import { Theme } from './theme';
+import { el, icon } from './ui/dom';
+import { acceptDrops, emptyState, kAccepted } from './ui/empty';
+import { download, downloadFiles, ExportDialog, type ExportChoice } from './ui/export_dialog';
+import { Panels } from './ui/panels';
+import { Viewport } from './ui/viewport';
+import * as words from './ui/words';
+import { ModelView } from './view/model_view';
+import { Stage } from './view/stage';
+
+const kUpAxis = { x: 0, y: 1, z: 2 } as const;
+const kMaterial = { density: 1000, young: 1e5, poisson: 0.4 };
+/** Formats whose files have y up by custom. */
+const kYUp = /\.(obj|gltf|glb)$/i;
+
+export class App {
+  private readonly store = new Store(fromAddress(location.hash));
+  private readonly viewport: Viewport;
+  private readonly stage: Stage;
+  private readonly view: ModelView;
+  private readonly play: Play;
+  private readonly theme: Theme;
+  private readonly client: Client;
+  private panels: Panels | null = null;
+  private exporter: ExportDialog | null = null;
+  private empty: HTMLElement;
+  private soup: SoupReport | null = null;
+  private report: Report | null = null;
+  private slice: Slice | null = null;
+  private meshDone = false;
+  private meshJob = 0;
+  private soupJob = 0;
+  private sliceJob = 0;
+  private wishedAt = 0;
+  private exportStem = '';
+  private readonly picker = el('input', { type: 'file', accept: kAccepted, hidden: true, 'aria-label': 'Model file', onchange: () => this.pickFile() });
+  private readonly notice = el('div', { class: 'notice', role: 'alert', hidden: true });
+  private readonly name = el('span', { class: 'model-name' });
+  private readonly undo = el('button', { type: 'button', class: 'icon', title: 'Undo (Ctrl+Z)', 'aria-label': 'Undo', disabled: true, onclick: () => this.store.undo() }, icon('undo'));
+  private readonly redo = el('button', { type: 'button', class: 'icon', title: 'Redo (Ctrl+Y)', 'aria-label': 'Redo', disabled: true, onclick: () => this.store.redo() }, icon('redo'));
+  private readonly exportButton = el('button', { type: 'button', class: 'primary', id: 'export', disabled: true, onclick: () => this.openExport() }, icon('save'), 'Export');
+
+  constructor(private readonly root: HTMLElement) {
+    this.viewport = new Viewport({
+      view: (view) => this.setView(view), look: () => this.showLook(), slice: () => this.askSlice(), fit: () => this.fit(),
+      pause: () => this.play.pause(), reset: () => this.play.reset(), stop: () => this.stopPlaying(),
+    });
+    this.empty = emptyState(null, () => this.picker.click(), () => undefined, () => undefined);
+    this.viewport.element.append(this.empty, this.notice);
+    this.root.append(this.header(), el('aside', { 'aria-label': 'Settings' }), this.viewport.element, this.picker);
+    this.stage = new Stage(this.viewport.canvas, 'The model in 3D. Arrow keys turn it, plus and minus zoom.');
+    this.view = new ModelView(this.stage,
+      (translate, rotate) => this.store.set({ translate, rotate }), () => this.store.endStep());
+    this.client = new Client((reply) => this.onReply(reply));
+    this.play = new Play(this.client, this.stage, this.viewport,
+      () => ({ up: kUpAxis[this.store.now.up], young: 10 ** this.store.now.stiffness }), () => this.showLook(),
+      ({ frames, framesPerSecond, simulate, draw }) => Object.assign(this.root.dataset, { frames, fps: framesPerSecond.toFixed(1), simulate: simulate.toFixed(1), draw: draw.toFixed(1) }));
+    this.theme = new Theme((dark) => this.paint(dark));
+    this.theme.apply();
+    this.store.onChange((now, before) => this.onSettings(now, before));
+    this.listen();
+  }
+
+  private header(): HTMLElement {
+    return el('header', {}, el('h1', {}, 'tetsoup ', el('small', {}, 'studio')),
+      el('button', { type: 'button', 'aria-label': 'Open a model', onclick: () => this.picker.click() }, icon('open'), el('span', { class: 'wide' }, 'Open')),
+      this.name, el('span', { class: 'gap' }), this.undo, this.redo,
+      el('button', { type: 'button', class: 'icon', title: 'Copy a link to this mesh', 'aria-label': 'Copy a link to this mesh', onclick: () => void this.copyLink() }, icon('link')),
+      el('button', { type: 'button', class: 'icon', title: 'Light or dark', 'aria-label': 'Switch between light and dark', onclick: () => this.theme.toggle() }, icon('theme')),
+      this.exportButton);
+  }
+
+  private listen(): void {
+    acceptDrops((file) => void this.openFile(file));
+    addEventListener('hashchange', () => {
+      const wanted = { ...fromAddress(location.hash), file: this.store.now.file };
+      if (toAddress(wanted) !== toAddress(this.store.now)) this.store.set(wanted);
+    });
+    addEventListener('keydown', (event) => {
+      const typing = event.target instanceof HTMLInputElement && event.target.type !== 'range';
+      if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z' && !typing) {
+        event.preventDefault();
+        if (event.shiftKey) this.store.redo();
+        else this.store.undo();
+      } else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'y' && !typing) {
+        event.preventDefault();
+        this.store.redo();
+      } else if (!typing && !event.ctrlKey && !event.metaKey && !event.altKey && !(event.target instanceof HTMLSelectElement)) {
+        if (event.key.toLowerCase() === 'f') this.fit();
+        const view = (['soup', 'votes', 'lattice', 'tets', 'surface'] as View[])[Number(event.key) - 1];
+        if (view && this.soup && !this.play.on) this.setView(view);
+      }
+    });
+  }
+
+  // --- what the worker says ------------------------------------------------------------------------------------------
+
+  private onReply(reply: Reply): void {
+    switch (reply.type) {
+      case 'ready': return this.onReady(reply.catalog);
+      case 'fatal': return this.complain(`The mesher could not be started: ${reply.message}. It needs a browser from 2022 or later, and a page served over http.`);
+      case 'soup': return this.onSoup(reply.surface, reply.report);
+      case 'mesh': return reply.job === this.meshJob ? this.onMesh(reply.result, reply.done) : undefined;
+      case 'slice': return reply.job === this.sliceJob ? this.showSlice(reply.slice) : undefined;
+      case 'progress': return this.viewport.setStatus(`${stageName(reply.stage)} ${Math.round(100 * reply.fraction)} %`, true);
+      case 'embed': return this.panels?.report('embedding', '', words.ofEmbedding(reply.report, this.store.now.unit));
+      case 'files':
+        downloadFiles(this.exportStem, reply.files);
+        return this.exporter?.done(reply.files, reply.usage);
+      case 'playing': return this.onPlaying(reply.start);
+      case 'frame': return this.play.frame(reply.frame);
+      case 'cancelled': return reply.job === this.meshJob ? this.viewport.setStatus('') : undefined;
+      case 'error': return this.onError(reply.job, reply.message, reply.status);
+    }
+  }
+
+  private onReady(catalog: Catalog): void {
+    this.panels = new Panels(this.store, {
+      open: () => this.picker.click(), sample: (name) => this.openSample(name), gizmo: (mode) => this.view.showFrame(mode),
+      embed: () => this.client.ask({ type: 'embed' }), showSurface: () => this.setView('surface'), play: (scene) => this.startPlaying(scene),
+    }, catalog);
+    this.root.querySelector('aside')?.replaceWith(this.panels.element);
+    const empty = emptyState(catalog, () => this.picker.click(), (name) => this.openSample(name), () => this.startPlaying('robots-on-tree'));
+    this.empty.replaceWith(empty);
+    this.empty = empty;
+    this.exporter = new ExportDialog(catalog, (choice) => this.export(choice), () => void this.savePicture());
+    this.root.append(this.exporter.element);
+    this.root.dataset.threads = String(catalog.threads);
+    this.viewport.setView(this.store.now.view);
+    const served = new URLSearchParams(location.search).get('model');
+    if (served) void this.openServed(served);
+    else if (this.store.now.sample) this.loadSample();
+  }
+
+  /** The model that `tetsoup studio FILE` serves beside the page. */
+  private async openServed(name: string): Promise<void> {
+    const answer = await fetch(`model/${encodeURIComponent(name)}`);
+    if (answer.ok) await this.openFile(new File([await answer.arrayBuffer()], name));
+    else this.complain(`${name} is not there any more. Open a file, or choose a sample.`);
+  }
+
+  private onSoup(surface: { vertices: Float32Array; triangles: Uint32Array }, report: SoupReport): void {
+    this.stopPlaying();
+    this.soup = report;
+    this.report = null;
+    this.meshDone = false;
+    this.root.dataset.state = 'soup';
+    this.empty.hidden = true;
+    this.viewport.setModel(true);
+    this.view.setSoup(surface, report.box);
+    const { now } = this.store;
+    this.name.textContent = now.file || `${now.sample}${now.damage ? `, ${now.damage} % damaged` : ''}`;
+    this.panels?.report('soup', words.count(report.used_triangles, 'triangle'), words.ofSoup(report, now.unit));
+    this.panels?.report('embedding', '', []);
+    this.stage.setUp(kUpAxis[now.up]);
+    this.viewport.setView(now.view);
+    this.showLook();
+    this.stage.resize();
+    this.fit();
+    this.updateButtons();
+    if (report.class !== 'empty') this.askMesh();
+    else this.complain('There is no usable triangle in this file. Choose another one, or a sample.');
+  }
+
+  private onMesh(result: MeshResult, done: boolean): void {
+    this.report = result.report;
+    this.slice = result.slice;
+    this.meshDone = done;
+    this.view.setMesh(result);
+    this.view.placeFrame(this.store.now.translate, this.store.now.rotate);
+    this.showReports();
+    this.showLook();
+    this.updateButtons();
+    this.stage.onDrawn(() => {
+      const time = performance.now() - this.wishedAt;
+      this.viewport.setStatus(done ? `${words.count(result.report.quality.tet_count, 'tet')} in ${words.milliseconds(time)}` : 'Coarse answer, refining', !done);
+      this.viewport.status.title = Object.entries(result.report.seconds).map(([stage, s]) => `${stageName(stage)}: ${words.milliseconds(1000 * s)}`).join('\n');
+      Object.assign(this.root.dataset, { state: done ? 'done' : 'coarse', tets: result.report.quality.tet_count, job: this.meshJob,
+        ms: time.toFixed(1), core: result.milliseconds.toFixed(1), seconds: JSON.stringify(result.report.seconds) });
+    });
+  }
+
+  private onError(job: number, message: string, status: number): void {
+    const text = words.ofError(message, status);
+    if (this.exporter?.element.open) return this.exporter.failed(text);
+    this.complain(text);
+    this.viewport.setStatus('');
+    this.root.dataset.state = 'error';
+    if (job === this.soupJob && !this.soup) this.store.set({ sample: '', file: '' });
+  }
+
+  // --- what the user does ----------------------------------------------------------------------------------------------
+
+  private onSettings(now: Settings, before: Settings): void {
+    history.replaceState(null, '', toAddress(now) ? `#${toAddress(now)}` : location.pathname + location.search);
+    this.panels?.show(now);
+    this.undo.disabled = !this.store.canUndo;
+    this.redo.disabled = !this.store.canRedo;
+    const differs = (...keys: (keyof Settings)[]) => keys.some((key) => String(now[key]) !== String(before[key]));
+    if (differs('view')) {
+      this.viewport.setView(now.view);
+      this.showLook();
+      if (now.view === 'votes') this.askSlice();
+    }
+    if (differs('up')) {
+      this.stage.setUp(kUpAxis[now.up]);
+      this.fit();
+    }
+    if (differs('stiffness')) this.play.setStiffness(10 ** now.stiffness);
+    if (differs('unit') && this.soup) this.showReports();
+    if (now.sample && differs('sample', 'damage')) return this.loadSample();
+    if (JSON.stringify(meshOptions(now)) !== JSON.stringify(meshOptions(before))) {
+      this.view.placeFrame(now.translate, now.rotate);
+      this.stage.draw();
+      this.askMesh();
+    }
+  }
+
+  private openSample(name: string): void {
+    this.store.set({ sample: name, file: '', up: 'z', unit: name === 'torus' ? 'cm' : 'm', damage: 0 });
+    this.store.endStep();
+  }
+
+  private loadSample(): void {
+    const { sample, damage } = this.store.now;
+    this.viewport.setStatus('Making the sample', true);
+    this.soupJob = this.client.ask({ type: 'load', source: { kind: 'sample', name: sample, damage: damage / 100, seed: 1 } });
+  }
+
+  private pickFile(): void {
+    const file = this.picker.files?.[0];
+    this.picker.value = '';
+    if (file) void this.openFile(file);
+  }
+
+  private async openFile(file: File): Promise<void> {
+    this.notice.hidden = true;
+    this.viewport.setStatus(`Reading ${file.name}`, true);
+    const bytes = await file.arrayBuffer();
+    this.store.set({ file: file.name, sample: '', damage: 0, up: kYUp.test(file.name) ? 'y' : 'z' });
+    this.store.endStep();
+    this.soupJob = this.client.ask({ type: 'load', source: { kind: 'file', name: file.name, bytes } }, [bytes]);
+  }
+
+  private askMesh(): void {
+    if (!this.soup || this.soup.class === 'empty') return;
+    this.stopPlaying();
+    this.notice.hidden = true;
+    this.meshDone = false;
+    this.wishedAt = performance.now();
+    this.root.dataset.state = 'busy';
+    this.updateButtons();
+    this.panels?.report('embedding', '', []);
+    this.meshJob = this.client.ask({ type: 'mesh', options: meshOptions(this.store.now), slice: this.viewport.cut, material: kMaterial });
+  }
+
+  private askSlice(): void {
+    if (this.meshDone) this.sliceJob = this.client.ask({ type: 'slice', slice: this.viewport.cut });
+  }
+
+  private setView(view: View): void {
+    this.store.set({ view });
+    this.viewport.setView(view);
+    this.showLook();
+  }
+
+  private startPlaying(scene: string | null): void {
+    this.notice.hidden = true;
+    this.root.dataset.state = 'preparing';
+    this.play.begin(scene);
+  }
+
+  private onPlaying(start: Parameters<Play['started']>[0]): void {
+    this.empty.hidden = true;
+    this.viewport.setModel(true);
+    this.play.started(start);
+    this.stage.resize();
+    this.root.dataset.state = 'playing';
+    this.panels?.report('simulation', '', [{ tone: 'plain', text: `${start.title}. Drag a body with the mouse or a finger to pull it.` }]);
+  }
+
+  private stopPlaying(): void {
+    if (!this.play.on) return;
+    this.play.stop();
+    this.panels?.report('simulation', '', []);
+    this.root.dataset.state = this.meshDone ? 'done' : '';
+    if (!this.soup) {
+      this.empty.hidden = false;
+      this.viewport.setModel(false);
+    }
+    this.fit();
+  }
+
+  private openExport(): void {
+    const { file, sample } = this.store.now;
+    this.exporter?.open((file || sample || 'mesh').replace(/\.[^.]*$/, ''), this.meshDone);
+  }
+
+  private export(choice: ExportChoice): void {
+    const { up, unit } = this.store.now;
+    this.exportStem = choice.name.replace(/\.[^.]*$/, '');
+    const wish = { ...choice, up: kUpAxis[up], metresPerUnit: kUnits[unit].metres, material: kMaterial };
+    this.client.ask({ type: 'export', wish });
+  }
+
+  private async savePicture(): Promise<void> {
+    const picture = await this.stage.picture();
+    if (picture) download(`${this.store.now.file || this.store.now.sample || 'tetsoup'}.png`, picture);
+  }
+
+  private async copyLink(): Promise<void> {
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.tell(this.store.now.file ? 'Link copied. It holds the settings; whoever opens it drops the file themselves.' : 'Link copied. It makes the same mesh, to the bit.');
+    } catch {
+      this.tell('Copy the address of this page: it holds all settings.');
+    }
+  }
+
+  // --- what is shown ---------------------------------------------------------------------------------------------------
+
+  private showReports(): void {
+    const { report, panels } = this;
+    const { now } = this.store;
+    if (!panels || !this.soup) return;
+    panels.report('soup', words.count(this.soup.used_triangles, 'triangle'), words.ofSoup(this.soup, now.unit));
+    if (!report) return;
+    if (report.pseudo_volume.automatic && now.k === null) panels.setAutomaticK(report.pseudo_volume.k);
+    panels.report('volume', `k = ${report.pseudo_volume.k.toFixed(3)}`, words.ofVolume(report, now));
+    panels.report('lattice', words.count(report.lattice.tet_count, 'tet'), words.ofLattice(report, now));
+    panels.report('smoothing', report.quality.tet_count ? `${report.quality.min_dihedral_deg.toFixed(0)}° to ${report.quality.max_dihedral_deg.toFixed(0)}°` : '', words.ofSmoothing(report));
+  }
+
+  private showLook(): void {
+    const { look } = this.viewport;
+    this.view.show(look, !this.play.on && this.soup !== null);
+    this.play.look(this.viewport.playTets, true);
+    this.showLegend();
+  }
+
+  private showLegend(): void {
+    const { report, viewport } = this;
+    const { view, quality } = viewport.look;
+    if (this.play.on || !report) return viewport.hideLegend();
+    if (view === 'votes') return viewport.showVotes(this.slice, this.theme.dark);
+    if (view === 'tets') return viewport.showAngles(report.quality.dihedral_histogram, quality);
+    if (view === 'lattice') return viewport.showAngles(report.lattice_quality.dihedral_histogram, quality);
+    viewport.hideLegend();
+  }
+
+  private showSlice(slice: Slice): void {
+    this.slice = slice;
+    this.view.setSlice(slice);
+    this.showLook();
+  }
+
+  private paint(dark: boolean): void {
+    this.stage.setDark(dark);
+    this.view.setPalette(dark);
+    this.play.view.setPalette();
+    this.showLook();
+  }
+
+  private fit(): void {
+    if (this.play.on) this.play.view.fit();
+    else this.stage.fit(this.view.box);
+  }
+
+  private updateButtons(): void {
+    this.exportButton.disabled = !this.soup;
+    this.panels?.setReady(this.soup !== null, this.meshDone && (this.report?.quality.tet_count ?? 0) > 0);
+  }
+
+  private complain(text: string): void {
+    this.showNotice(text, true);
+  }
+  private tell(text: string): void {
+    this.showNotice(text, false);
+  }
+  private showNotice(text: string, watch: boolean): void {
+    this.notice.className = watch ? 'notice watch' : 'notice';
+    this.notice.replaceChildren(el('p', {}, text),
+      el('button', { type: 'button', 'aria-label': 'Close', onclick: () => (this.notice.hidden = true) }, icon('close')));
+    this.notice.hidden = false;
+  }
+}
+
+const kStageNames: Record<string, string> = {
+  soup: 'Looking at the soup', distance: 'Measuring distances', pseudo_volume: 'Deciding what is inside',
+  lattice: 'Filling with tets', smooth: 'Smoothing', embed: 'Hanging the surface', quality: 'Measuring the mesh',
+};
+function stageName(stage: string): string {
+  return kStageNames[stage.replace(/ /g, '_')] ?? stage.charAt(0).toUpperCase() + stage.slice(1);
+}
+

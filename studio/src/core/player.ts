@@ -1,0 +1,190 @@
+// A simulation that plays: the meshed body that falls on the ground, or a built-in scene.
+import type { Core } from './module';
+import type { BodyFrame, BodyShape, Frame, PlayStart, PlayWish, Surface, Vec3 } from './protocol';
+import type { Body } from './body';
+import type { Mesher } from './mesher';
+
+/** The meshed body is played at this length of its longest side, whatever its unit. */
+const kSize = 1;
+const kDropHeight = 0.35;
+const kStep = 1 / 60;
+/** A handful of vertices is pulled, so that a pull does not tear at a single one. */
+const kGrabbed = 8;
+/** The pull of one metre in multiples of the body's weight. */
+const kPull = 12;
+const kGravity = 9.81;
+const kMaterial = { density: 1000, poisson: 0.4, damping_time: 0.004, friction: 0.8 };
+
+interface SceneBody {
+  material?: { young?: number };
+}
+
+export class Player {
+  private simulation = 0;
+  private wish: PlayWish | null = null;
+  private springs: { spring: number; offset: Vec3 }[] = [];
+  private bodyCount = 0;
+  private frames = 0;
+  private mass = 1;
+
+  constructor(private readonly core: Core, private readonly mesher: Mesher, private readonly body: Body) {}
+
+  get playing(): boolean {
+    return this.simulation !== 0;
+  }
+
+  start(wish: PlayWish): PlayStart {
+    this.stop();
+    this.wish = wish;
+    const { title, young } = this.build(wish.young);
+    const { core } = this;
+    core.call('simulation_body_count', this.simulation, core.result);
+    this.bodyCount = core.word();
+    this.frames = 0;
+    core.call('simulation_report', this.simulation, core.result);
+    const report = core.json<{ tet_count: number }>();
+    return { bodies: this.shapes(), obstacles: this.obstacles(), tetCount: report.tet_count, title, young };
+  }
+
+  /** Everything stays where it is and as fast as it is, of another material. */
+  setStiffness(young: number): void {
+    if (!this.wish) return;
+    const { core } = this;
+    const state: Float32Array<ArrayBuffer>[][] = [];
+    for (let body = 0; body < this.bodyCount; ++body) state.push(['positions', 'velocities'].map((what) => {
+      core.call('simulation_' + what, this.simulation, body, core.result);
+      return core.floats();
+    }));
+    this.release();
+    const old = this.simulation;
+    this.build(young);
+    core.number('simulation_destroy', old);
+    state.forEach((arrays, body) => arrays.forEach((values, i) => core.withBytes(new Uint8Array(values.buffer), (at) =>
+      core.call(i === 0 ? 'simulation_set_positions' : 'simulation_set_velocities', this.simulation, body, at,
+        values.length / 3))));
+  }
+
+  private build(young: number): { title: string; young: number } {
+    if (this.wish?.scene) return this.loadScene(this.wish.scene, young);
+    this.dropBody(young);
+    return { title: 'The body falls on the ground', young };
+  }
+
+  private loadScene(name: string, young: number): { title: string; young: number } {
+    const { core } = this;
+    core.withTexts([name], (text) => core.call('scene_text', text, core.result));
+    const scene = core.json<{ title?: string; bodies: SceneBody[] }>();
+    const own = scene.bodies[0]?.material?.young ?? 1e5;
+    if (young > 0) scene.bodies.forEach((body) => (body.material = { ...body.material, young }));
+    core.withTexts([JSON.stringify(scene)], (text) =>
+      core.call('scene_load', text, 0, core.progress, 0, core.result));
+    this.simulation = core.word();
+    this.mass = 20;
+    return { title: scene.title ?? name, young: young > 0 ? young : own };
+  }
+
+  private dropBody(young: number): void {
+    const { core } = this;
+    const up = this.wish?.up ?? 2;
+    core.call('pipeline_report', this.mesher.pipeline, 0, core.result);
+    const { soup, quality } = core.json<{ soup: { box: { lo: Vec3; hi: Vec3 } }; quality: { volume: number } }>();
+    const extent = soup.box.hi.map((hi, i) => hi - soup.box.lo[i]);
+    const scale = kSize / Math.max(...extent);
+    this.mass = kMaterial.density * quality.volume * scale ** 3;
+    const middle = soup.box.lo.map((lo, i) => (lo + soup.box.hi[i]) / 2);
+    // With y up, a quarter turn about x brings (x, y, z) to (x, -z, y).
+    const turned = up === 1 ? [middle[0], -middle[2], 0] : [middle[0], middle[1], 0];
+    const lowest = soup.box.lo[up];
+    const place = {
+      scale,
+      rotate: [up === 1 ? 90 : 0, 0, 0],
+      translate: [-scale * turned[0], -scale * turned[1], kDropHeight - scale * lowest],
+    };
+    const model = this.body.get();
+    core.withTexts(['{}'], (options) => core.call('simulation_create', options, core.result));
+    this.simulation = core.word();
+    core.withTexts([JSON.stringify({ ...kMaterial, young }), JSON.stringify(place)], (material, where) =>
+      core.call('simulation_add_model', this.simulation, model, material, where, core.result));
+    core.withDoubles([0, 0, 1], (normal) =>
+      core.call('simulation_add_plane', this.simulation, normal, 0, kMaterial.friction));
+  }
+
+  private shapes(): BodyShape[] {
+    const { core } = this;
+    return Array.from({ length: this.bodyCount }, (_, body) => {
+      core.call('simulation_tets', this.simulation, body, core.result);
+      const tets = core.indices();
+      core.call('simulation_triangles', this.simulation, body, core.result);
+      return { tets, tetCount: tets.length / 4, triangles: core.indices() };
+    });
+  }
+
+  private obstacles(): Surface[] {
+    const { core } = this;
+    if (!this.wish?.scene) return [];
+    core.call('scene_obstacle_count', this.simulation, core.result);
+    return Array.from({ length: core.word() }, (_, i) => {
+      core.call('scene_obstacle', this.simulation, i, core.result, core.result + 12);
+      return { vertices: core.floats(), triangles: core.indices(12) };
+    });
+  }
+
+  advance(): Frame {
+    const { core } = this;
+    const since = performance.now();
+    if (this.wish?.scene) core.call('scene_advance', this.simulation);
+    else core.call('simulation_step', this.simulation, kStep);
+    const frame = this.frame();
+    this.frames += 1;
+    return { ...frame, simulateMilliseconds: performance.now() - since };
+  }
+
+  frame(): Frame {
+    const { core } = this;
+    const bodies: BodyFrame[] = [];
+    for (let body = 0; body < this.bodyCount; ++body) {
+      core.call('simulation_surface', this.simulation, body, core.result, core.result + 12);
+      const [vertices, normals] = [core.floats(), core.floats(12)];
+      core.call('simulation_positions', this.simulation, body, core.result);
+      bodies.push({ vertices, normals, positions: core.floats() });
+    }
+    return { number: this.frames, time: this.frames * kStep, bodies, simulateMilliseconds: 0 };
+  }
+
+  grab(body: number, vertex: number, target: Vec3): void {
+    this.release();
+    const { core } = this;
+    core.call('simulation_positions', this.simulation, body, core.result);
+    const positions = core.floats();
+    const at = (i: number): Vec3 => [positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]];
+    const centre = at(vertex);
+    const distance = (i: number) => Math.hypot(...at(i).map((x, axis) => x - centre[axis]));
+    const near = Array.from({ length: positions.length / 3 }, (_, i) => i)
+      .sort((a, b) => distance(a) - distance(b)).slice(0, kGrabbed);
+    const stiffness = (kPull * this.mass * kGravity) / near.length;
+    for (const i of near) {
+      const offset = at(i).map((x, axis) => x - centre[axis]) as Vec3;
+      const goal = target.map((x, axis) => x + offset[axis]);
+      core.withDoubles(goal, (to) =>
+        core.call('simulation_add_spring', this.simulation, body, i, to, stiffness, core.result));
+      this.springs.push({ spring: core.word(), offset });
+    }
+  }
+
+  drag(target: Vec3): void {
+    for (const { spring, offset } of this.springs)
+      this.core.withDoubles(target.map((x, axis) => x + offset[axis]), (to) =>
+        this.core.call('simulation_move_spring', this.simulation, spring, to));
+  }
+
+  release(): void {
+    for (const { spring } of this.springs) this.core.call('simulation_remove_spring', this.simulation, spring);
+    this.springs = [];
+  }
+
+  stop(): void {
+    this.springs = [];
+    this.core.number('simulation_destroy', this.simulation);
+    this.simulation = 0;
+  }
+}

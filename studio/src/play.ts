@@ -1,0 +1,108 @@
+// Playing: from the button to moving bodies, with the times that simulating and drawing take.
+import type { Client } from './core/client';
+import type { Frame, PlayStart, Vec3 } from './core/protocol';
+import type { Stage } from './view/stage';
+import { PlayView } from './view/play_view';
+import type { Viewport } from './ui/viewport';
+import { milliseconds } from './ui/words';
+
+/** Times are averages of so many frames. */
+const kAveraged = 20;
+
+export interface PlayStats {
+  frames: number;
+  framesPerSecond: number;
+  simulate: number;
+  draw: number;
+}
+
+export class Play {
+  readonly view: PlayView;
+  on = false;
+  paused = false;
+  readonly stats: PlayStats = { frames: 0, framesPerSecond: 0, simulate: 0, draw: 0 };
+  private scene: string | null = null;
+  private arrivals: { at: number; simulate: number; draw: number }[] = [];
+  private tetCount = 0;
+
+  constructor(private readonly client: Client, private readonly stage: Stage, private readonly viewport: Viewport,
+              private readonly settings: () => { up: number; young: number }, private readonly changed: () => void,
+              private readonly noted: (stats: PlayStats) => void) {
+    this.view = new PlayView(stage, {
+      grab: (body, vertex, target: Vec3) => client.send({ type: 'grab', body, vertex, target }),
+      drag: (target: Vec3) => client.send({ type: 'drag', target }),
+      release: () => client.send({ type: 'release' }),
+    });
+  }
+
+  begin(scene: string | null): void {
+    this.scene = scene;
+    this.viewport.setStatus(scene ? 'Meshing the scene' : 'Preparing the body', true);
+    this.client.ask({ type: 'play', wish: { scene, up: this.settings().up, young: scene ? 0 : this.settings().young } });
+  }
+
+  started(start: PlayStart): void {
+    this.on = true;
+    this.paused = false;
+    this.arrivals = [];
+    this.stats.frames = 0;
+    this.tetCount = start.tetCount;
+    this.view.start(start);
+    this.viewport.setPlaying(true);
+    this.viewport.setPaused(false);
+    this.changed();
+  }
+
+  frame(frame: Frame): void {
+    if (!this.on) return;
+    this.view.show(frame);
+    this.stage.onDrawn(() => {
+      this.client.send({ type: 'drawn' });
+      this.note(frame);
+    });
+  }
+
+  private note(frame: Frame): void {
+    this.arrivals.push({ at: performance.now(), simulate: frame.simulateMilliseconds, draw: this.stage.drawMilliseconds });
+    if (this.arrivals.length > kAveraged) this.arrivals.shift();
+    const { arrivals, stats } = this;
+    const mean = (key: 'simulate' | 'draw') => arrivals.reduce((sum, a) => sum + a[key], 0) / arrivals.length;
+    stats.frames += 1;
+    stats.simulate = mean('simulate');
+    stats.draw = mean('draw');
+    const time = arrivals[arrivals.length - 1].at - arrivals[0].at;
+    stats.framesPerSecond = time > 0 ? (1000 * (arrivals.length - 1)) / time : 0;
+    this.noted(stats);
+    if (stats.frames % 6 !== 1) return;
+    this.viewport.setStatus(`${Math.round(stats.framesPerSecond)} frames/s · ${this.tetCount.toLocaleString('en')} tets · `
+      + `simulating ${milliseconds(stats.simulate)}, drawing ${milliseconds(stats.draw)}`);
+  }
+
+  pause(): void {
+    this.paused = !this.paused;
+    this.client.send({ type: 'pause', paused: this.paused });
+    this.viewport.setPaused(this.paused);
+  }
+
+  reset(): void {
+    this.begin(this.scene);
+  }
+
+  setStiffness(young: number): void {
+    if (this.on) this.client.ask({ type: 'stiffness', young });
+  }
+
+  look(tets: boolean, edges: boolean): void {
+    this.view.setLook(tets, edges, false);
+  }
+
+  stop(): void {
+    if (!this.on) return;
+    this.on = false;
+    this.client.send({ type: 'stop' });
+    this.view.empty();
+    this.viewport.setPlaying(false);
+    this.viewport.setStatus('');
+    this.changed();
+  }
+}

@@ -1,0 +1,151 @@
+// What the user chose, its history, and its place in the page's address.
+import type { MeshOptions, Vec3 } from './core/protocol';
+
+export type View = 'soup' | 'votes' | 'lattice' | 'tets' | 'surface';
+
+export interface Settings {
+  sample: string;
+  /** Per cent of a sample's triangles that are missing. */
+  damage: number;
+  /** Name of a dropped file: its bytes are not in the address. */
+  file: string;
+  up: 'x' | 'y' | 'z';
+  unit: 'm' | 'cm' | 'mm' | 'in';
+  voxels: number;
+  /** Null: chosen by the library. */
+  k: number | null;
+  cavities: 'fill' | 'keep';
+  tets: number;
+  lattice: 'five' | 'bcc';
+  rho: number;
+  translate: Vec3;
+  rotate: Vec3;
+  fit: 'off' | 'search';
+  passes: number;
+  strength: number;
+  snap: 'on' | 'off';
+  /** Decimal logarithm of Young's modulus in Pa. */
+  stiffness: number;
+  view: View;
+}
+
+export const kDefaults: Readonly<Settings> = {
+  sample: '', damage: 0, file: '', up: 'z', unit: 'm',
+  voxels: 96, k: null, cavities: 'fill',
+  tets: 2000, lattice: 'five', rho: 0.5, translate: [0, 0, 0], rotate: [0, 0, 0], fit: 'off',
+  passes: 6, strength: 1, snap: 'on',
+  stiffness: 4.8, view: 'tets',
+};
+
+export const kUnits: Record<Settings['unit'], { metres: number; label: string }> = {
+  m: { metres: 1, label: 'metres' },
+  cm: { metres: 0.01, label: 'centimetres' },
+  mm: { metres: 0.001, label: 'millimetres' },
+  in: { metres: 0.0254, label: 'inches' },
+};
+
+const kChoices: Partial<Record<keyof Settings, readonly string[]>> = {
+  up: ['x', 'y', 'z'], unit: ['m', 'cm', 'mm', 'in'], cavities: ['fill', 'keep'], lattice: ['five', 'bcc'],
+  fit: ['off', 'search'], snap: ['on', 'off'], view: ['soup', 'votes', 'lattice', 'tets', 'surface'],
+};
+
+/** The options of meshing that these settings stand for. */
+export function meshOptions(s: Settings): MeshOptions {
+  const options: MeshOptions = {
+    voxels: s.voxels, cavities: s.cavities, tets: s.tets, lattice: s.lattice, rho_min: s.rho,
+    translate_cells: s.translate, rotate: s.rotate, fit: s.fit, passes: s.passes, strength: s.strength, snap: s.snap,
+  };
+  if (s.k !== null) options.k = s.k;
+  return options;
+}
+
+/** Only what differs from the defaults, so that addresses stay short. */
+export function toAddress(s: Settings): string {
+  const words = new URLSearchParams();
+  for (const key of Object.keys(kDefaults) as (keyof Settings)[])
+    if (key !== 'file' && String(s[key]) !== String(kDefaults[key])) words.set(key, String(s[key]));
+  return words.toString().replace(/%2C/g, ',');
+}
+
+/** What cannot be understood is as by default: addresses are typed, cut and pasted by people. */
+export function fromAddress(hash: string): Settings {
+  const s: Record<string, unknown> = { ...kDefaults };
+  for (const [key, text] of new URLSearchParams(hash.replace(/^#/, ''))) {
+    const fallback = kDefaults[key as keyof Settings];
+    if (!(key in kDefaults) || key === 'file') continue;
+    const choices = kChoices[key as keyof Settings];
+    const numbers = text.split(',').map(Number);
+    if (Array.isArray(fallback)) {
+      if (numbers.length === 3 && numbers.every(Number.isFinite)) s[key] = numbers;
+    } else if (key === 'k' || typeof fallback === 'number') {
+      if (text !== '' && Number.isFinite(numbers[0])) s[key] = numbers[0];
+    } else if (!choices || choices.includes(text)) s[key] = text;
+  }
+  return s as unknown as Settings;
+}
+
+const kMostSteps = 200;
+/** Changes of one control within this time are one step back. */
+const kStepMilliseconds = 700;
+
+/** The settings, and every earlier and later state of them. */
+export class Store {
+  private past: Settings[] = [];
+  private future: Settings[] = [];
+  private lastKey = '';
+  private lastTime = 0;
+  private listeners: ((now: Settings, before: Settings) => void)[] = [];
+
+  constructor(public now: Settings) {}
+
+  onChange(listener: (now: Settings, before: Settings) => void): void {
+    this.listeners.push(listener);
+  }
+
+  set(change: Partial<Settings>): void {
+    const before = this.now;
+    const now = { ...before, ...change };
+    if (toAddress(now) === toAddress(before) && now.file === before.file) return;
+    const key = Object.keys(change).join();
+    const time = performance.now();
+    if (key !== this.lastKey || time - this.lastTime > kStepMilliseconds || !this.past.length) this.past.push(before);
+    if (this.past.length > kMostSteps) this.past.shift();
+    this.lastKey = key;
+    this.lastTime = time;
+    this.future = [];
+    this.apply(now);
+  }
+
+  /** The next change starts a step of its own: a slider was let go. */
+  endStep(): void {
+    this.lastKey = '';
+  }
+
+  get canUndo(): boolean {
+    return this.past.length > 0;
+  }
+  get canRedo(): boolean {
+    return this.future.length > 0;
+  }
+
+  undo(): void {
+    this.travel(this.past, this.future);
+  }
+  redo(): void {
+    this.travel(this.future, this.past);
+  }
+
+  private travel(from: Settings[], to: Settings[]): void {
+    const target = from.pop();
+    if (!target) return;
+    to.push(this.now);
+    this.lastKey = '';
+    this.apply(target);
+  }
+
+  private apply(now: Settings): void {
+    const before = this.now;
+    this.now = now;
+    this.listeners.forEach((listener) => listener(now, before));
+  }
+}

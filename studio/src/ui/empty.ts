@@ -1,0 +1,40 @@
+// What is there before there is a model: a place to drop one, and samples.
+import type { Catalog } from '../core/protocol';
+import { el, icon } from './dom';
+
+export const kAccepted = '.obj,.stl,.ply,.off,.glb,.gltf';
+
+export function emptyState(catalog: Catalog | null, open: () => void, sample: (name: string) => void, robots: () => void): HTMLElement {
+  const samples = (catalog?.samples ?? []).map((s) =>
+    el('button', { type: 'button', 'data-sample': s.name, onclick: () => sample(s.name) }, el('b', {}, s.name), el('small', {}, s.summary)));
+  return el('section', { class: 'empty', 'aria-label': 'Begin' }, el('div', { class: 'inner' },
+    el('div', { class: 'triple' },
+      el('h2', {}, 'Any triangles in, a tet mesh for simulation out'),
+      el('p', {}, 'Holes, loose triangles and parts pushed into each other are fine. Everything happens in this page: nothing is uploaded.')),
+    el('div', { class: 'drop' },
+      el('button', { type: 'button', class: 'primary', onclick: open }, icon('open'), 'Open a model'),
+      el('span', { class: 'unit' }, 'or drop it here: OBJ, STL, PLY, OFF or GLB')),
+    catalog ? el('div', { class: 'triple' }, el('p', {}, 'Or try a sample'), el('div', { class: 'samples' }, ...samples))
+      : el('p', { role: 'status' }, 'Loading the mesher …'),
+    catalog && el('p', { class: 'watch-line' }, 'Or just watch', el('button', { type: 'button', id: 'watch', onclick: robots }, icon('play'), 'Four robots fall on a tree'))));
+}
+
+/** A drop anywhere on the page opens the file. */
+export function acceptDrops(take: (file: File) => void): void {
+  let depth = 0;
+  const mark = (change: number) => {
+    depth = Math.max(0, depth + change);
+    document.body.classList.toggle('dropping', depth > 0);
+  };
+  addEventListener('dragenter', (event) => {
+    if (event.dataTransfer?.types.includes('Files')) mark(1);
+  });
+  addEventListener('dragleave', () => mark(-1));
+  addEventListener('dragover', (event) => event.preventDefault());
+  addEventListener('drop', (event) => {
+    event.preventDefault();
+    mark(-depth);
+    const file = event.dataTransfer?.files[0];
+    if (file) take(file);
+  });
+}

@@ -1,0 +1,205 @@
+// The panels at the side, in the order of the flow: each a few controls, and what came of them in plain words.
+import type { Catalog } from '../core/protocol';
+import { kUnits, type Settings, type Store } from '../state';
+import { choice, type Control, select, slider, toggle } from './controls';
+import { el } from './dom';
+import { likeWhat, pascals, type Sentence } from './words';
+
+export type PanelName = 'soup' | 'volume' | 'lattice' | 'smoothing' | 'embedding' | 'simulation';
+
+const kTitles: Record<PanelName, string> = {
+  soup: 'Soup', volume: 'Volume', lattice: 'Lattice', smoothing: 'Smoothing', embedding: 'Embedding', simulation: 'Simulation',
+};
+
+export interface PanelActions {
+  open(): void;
+  sample(name: string): void;
+  gizmo(mode: 'translate' | 'rotate' | null): void;
+  embed(): void;
+  showSurface(): void;
+  play(scene: string | null): void;
+}
+
+interface Panel {
+  element: HTMLDetailsElement;
+  brief: HTMLElement;
+  report: HTMLElement;
+  body: HTMLElement;
+}
+
+export class Panels {
+  readonly element = el('aside', { 'aria-label': 'Settings' });
+  private readonly panels = new Map<PanelName, Panel>();
+  private readonly bindings: ((s: Settings) => void)[] = [];
+  private readonly controls: Control<never>[] = [];
+  private readonly gizmoButtons = new Map<string, HTMLButtonElement>();
+  private readonly meshOnly: HTMLButtonElement[] = [];
+  readonly playStatus = el('p', { class: 'hint', role: 'status', hidden: true });
+
+  constructor(private readonly store: Store, private readonly actions: PanelActions, catalog: Catalog) {
+    for (const name of Object.keys(kTitles) as PanelName[]) this.addPanel(name);
+    this.fillSoup(catalog);
+    this.fillVolume();
+    this.fillLattice();
+    this.fillSmoothing();
+    this.fillEmbedding();
+    this.fillSimulation();
+    this.show(store.now);
+  }
+
+  private addPanel(name: PanelName): void {
+    const brief = el('span', { class: 'brief' });
+    const report = el('ul', { class: 'report', 'data-report': name, 'aria-live': 'polite' });
+    const body = el('div', { class: 'body' }, report);
+    const element = el('details', { class: 'panel', id: `panel-${name}`, open: true },
+      el('summary', {}, kTitles[name], brief), body);
+    this.panels.set(name, { element, brief, report, body });
+    this.element.append(element);
+  }
+
+  private put(name: PanelName, ...elements: Node[]): void {
+    const panel = this.panels.get(name) as Panel;
+    elements.forEach((element) => panel.body.insertBefore(element, panel.report));
+  }
+
+  /** A control that shows one setting and changes it. */
+  private bind<T>(control: Control<T>, read: (s: Settings) => T): HTMLElement {
+    this.bindings.push((s) => control.show(read(s)));
+    this.controls.push(control as unknown as Control<never>);
+    return control.element;
+  }
+
+  private number(key: 'voxels' | 'tets' | 'rho' | 'passes' | 'strength' | 'damage',
+                 o: { label: string; hint: string; min: number; max: number; step: number; most?: number; unit?: string; logarithmic?: boolean }): HTMLElement {
+    return this.bind(slider({ id: key, ...o, change: (value) => this.store.set({ [key]: value }), done: () => this.store.endStep() }),
+      (s) => s[key]);
+  }
+
+  private fillSoup(catalog: Catalog): void {
+    const samples: (readonly [string, string])[] = [['', 'Choose a sample …'], ...catalog.samples.map((s) => [s.name, title(s.name)] as const)];
+    const pick = this.bind(select({ id: 'sample', label: 'Sample', hint: 'Shapes made by formula, to try things with.', choices: samples,
+      change: (name) => name && this.actions.sample(name) }), (s) => s.sample);
+    const damage = this.number('damage', { label: 'Damage', unit: '%', min: 0, max: 80, step: 5,
+      hint: 'Share of a sample’s triangles that is taken away at random, to see holes being closed.' });
+    this.bindings.push((s) => (damage.hidden = !s.sample));
+    this.put('soup', pick, el('button', { type: 'button', onclick: () => this.actions.open() }, 'Open a file …'), damage,
+      el('div', { class: 'pair' }, this.bind(choice({ id: 'up', label: 'Up', hint: 'The axis of the model that points up: in the view, when it falls, and in files for engines.',
+        choices: [['x', 'x'], ['y', 'y'], ['z', 'z']], change: (up) => this.store.set({ up }) }), (s) => s.up),
+      this.bind(select({ id: 'unit', label: 'Unit', hint: 'What a length of 1 in the file means. Engines get metres.',
+        choices: Object.entries(kUnits).map(([k, u]) => [k as Settings['unit'], u.label] as const),
+        change: (unit) => this.store.set({ unit }) }), (s) => s.unit)));
+  }
+
+  private fillVolume(): void {
+    const k = slider({ id: 'k', label: 'Reach, k', min: 0.5, max: 1, step: 0.002, unit: '',
+      hint: 'How far from a triangle a surface is still felt. 1 is the triangles alone; less bridges wider gaps between them, and thickens thin parts.',
+      change: (value) => this.store.set({ k: value }), done: () => this.store.endStep() });
+    this.put('volume',
+      this.number('voxels', { label: 'Voxels along the longest side', min: 16, max: 256, most: 2048, step: 8,
+        hint: 'The grid on which inside and outside are decided. More see finer parts, and take longer.' }),
+      this.bind(toggle({ id: 'k-auto', label: 'Choose k for me', hint: 'Takes the k for which the rays agree best on what is inside.',
+        change: (on) => this.store.set({ k: on ? null : this.lastK }) }), (s) => s.k === null),
+      this.bind(k, (s) => s.k ?? this.lastK),
+      this.bind(choice({ id: 'cavities', label: 'Enclosed space', hint: 'Space that the triangles enclose although rays call it outside, as where closed parts overlap.',
+        choices: [['fill', 'Fill'], ['keep', 'Leave hollow']], change: (cavities) => this.store.set({ cavities }) }), (s) => s.cavities));
+    this.bindings.push((s) => k.enable(s.k !== null));
+  }
+
+  /** The k that was chosen automatically, from which a choice by hand begins. */
+  private lastK = 0.98;
+  setAutomaticK(k: number): void {
+    this.lastK = Number(k.toFixed(3));
+    this.show(this.store.now);
+  }
+
+  private fillLattice(): void {
+    this.put('lattice',
+      this.number('tets', { label: 'Tets', min: 100, max: 20000, most: 500000, step: 1, logarithmic: true,
+        hint: 'How many tetrahedra the mesh shall have; it has as many within 5 %.' }),
+      this.bind(choice({ id: 'lattice', label: 'Lattice', hint: 'Cubes of five tets each, or body-centred cubes whose tets are all alike and rounder.',
+        choices: [['five', 'Five a cube'], ['bcc', 'Body-centred']], change: (lattice) => this.store.set({ lattice }) }), (s) => s.lattice),
+      this.number('rho', { label: 'Share that must be inside, ρ', min: 0.05, max: 1, step: 0.05,
+        hint: 'A tet stays when this share of it lies inside. Less covers more space around the model.' }),
+      this.place());
+  }
+
+  private place(): HTMLElement {
+    const mode = (name: 'translate' | 'rotate', text: string) => {
+      const button = el('button', { type: 'button', 'aria-pressed': 'false', 'data-gizmo': name,
+        onclick: () => this.setGizmo(button.getAttribute('aria-pressed') === 'true' ? null : name) }, text);
+      this.gizmoButtons.set(name, button);
+      return button;
+    };
+    const axes = (key: 'translate' | 'rotate', most: number, step: number, unit: string, hint: string) => [0, 1, 2].map((axis) =>
+      this.bind(slider({ id: `${key}-${'xyz'[axis]}`, label: `${key === 'translate' ? 'Shift' : 'Turn'} ${'xyz'[axis]}`, hint, unit,
+        min: -most, max: most, step, done: () => this.store.endStep(),
+        change: (value) => {
+          const next = [...this.store.now[key]] as Settings['translate'];
+          next[axis] = value;
+          this.store.set({ [key]: next });
+        } }), (s) => s[key][axis]));
+    return el('details', { class: 'sub', id: 'place' }, el('summary', {}, 'Place of the lattice'), el('div', { class: 'body' },
+      el('div', { class: 'row' }, mode('translate', 'Move by hand'), mode('rotate', 'Turn by hand')),
+      this.bind(toggle({ id: 'fit', label: 'Search the best place', hint: 'Tries shifts, turns and sizes of the lattice and takes the one that meets the shape best. Takes a few seconds.',
+        change: (on) => this.store.set({ fit: on ? 'search' : 'off' }) }), (s) => s.fit === 'search'),
+      ...axes('translate', 1, 0.02, 'cells', 'Shift of the lattice, in edges of its cells.'),
+      ...axes('rotate', 90, 1, '°', 'Rotation of the lattice about x, then y, then z.')));
+  }
+
+  setGizmo(mode: 'translate' | 'rotate' | null): void {
+    this.gizmoButtons.forEach((button, name) => button.setAttribute('aria-pressed', String(name === mode)));
+    this.actions.gizmo(mode);
+  }
+
+  private fillSmoothing(): void {
+    this.put('smoothing',
+      this.number('passes', { label: 'Passes', min: 0, max: 30, most: 1000, step: 1, hint: 'How often the boundary is smoothed; 0 leaves the lattice as it is.' }),
+      this.number('strength', { label: 'Strength', min: 0.1, max: 2, step: 0.1, hint: 'How far a pass moves vertices.' }),
+      this.bind(toggle({ id: 'snap', label: 'Draw to the shape', hint: 'Draws the boundary to the surface of the inside. Off: it is only smoothed, and the lattice’s volume kept.',
+        change: (on) => this.store.set({ snap: on ? 'on' : 'off' }) }), (s) => s.snap === 'on'));
+  }
+
+  private fillEmbedding(): void {
+    const hang = this.need(el('button', { type: 'button', id: 'hang', onclick: () => this.actions.embed() }, 'Check it'));
+    const show = this.need(el('button', { type: 'button', onclick: () => this.actions.showSurface() }, 'Show it'));
+    this.put('embedding', el('p', { class: 'unit' }, 'The model’s own surface hangs on the tets and follows them.'), el('div', { class: 'row' }, hang, show));
+  }
+
+  private fillSimulation(): void {
+    const likeness = el('span', { class: 'unit' });
+    const stiffness = slider({ id: 'stiffness', label: 'Stiffness', min: 3.7, max: 7, step: 0.1,
+      hint: 'Young’s modulus as a power of ten in pascals: 4 is jelly, 6 is rubber. The body is played 1 m high, of the weight of water.',
+      change: (value) => this.store.set({ stiffness: value }), done: () => this.store.endStep() });
+    this.bindings.push((s) => (likeness.textContent = `${pascals(10 ** s.stiffness)}: ${likeWhat(10 ** s.stiffness)}`));
+    const drop = this.need(el('button', { type: 'button', class: 'primary', id: 'drop', onclick: () => this.actions.play(null) }, 'Drop it'));
+    const robots = el('button', { type: 'button', id: 'robots', onclick: () => this.actions.play('robots-on-tree') }, 'Robots on a tree');
+    this.put('simulation', el('div', { class: 'row' }, drop, robots), this.bind(stiffness, (s) => s.stiffness), likeness, this.playStatus);
+  }
+
+  private need(button: HTMLButtonElement): HTMLButtonElement {
+    button.disabled = true;
+    this.meshOnly.push(button);
+    return button;
+  }
+
+  /** Whether there is a model to work on, and whether its mesh is finished. */
+  setReady(model: boolean, mesh: boolean): void {
+    this.meshOnly.forEach((button) => (button.disabled = !mesh));
+    this.gizmoButtons.forEach((button) => (button.disabled = !mesh));
+    if (!model) this.panels.forEach((panel) => panel.report.replaceChildren());
+  }
+
+  show(s: Settings): void {
+    this.bindings.forEach((binding) => binding(s));
+  }
+
+  report(name: PanelName, brief: string, sentences: readonly Sentence[]): void {
+    const panel = this.panels.get(name) as Panel;
+    panel.brief.textContent = brief;
+    panel.report.replaceChildren(...sentences.map((s) => el('li', { class: s.tone }, s.text)));
+  }
+}
+
+function title(name: string): string {
+  return name.charAt(0).toUpperCase() + name.slice(1);
+}

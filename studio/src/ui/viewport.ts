@@ -1,0 +1,192 @@
+// What lies over the picture: which view, which cut, the legend, the status.
+import { gradient, kAngleStops, kBandColor, kVoteStops } from '../view/colors';
+import { histogram } from '../view/histogram';
+import type { Look } from '../view/model_view';
+import type { Slice } from '../core/protocol';
+import type { View } from '../state';
+import { choice, type Control, slider, toggle } from './controls';
+import { el, icon } from './dom';
+
+const kViews: readonly (readonly [View, string])[] =
+  [['soup', 'Soup'], ['votes', 'Votes'], ['lattice', 'Lattice'], ['tets', 'Tets'], ['surface', 'Surface']];
+const kAxes = [['0', 'x'], ['1', 'y'], ['2', 'z']] as const;
+
+export interface ViewportActions {
+  view(view: View): void;
+  look(): void;
+  slice(): void;
+  fit(): void;
+  pause(): void;
+  reset(): void;
+  stop(): void;
+}
+
+export class Viewport {
+  readonly canvas = el('div', { class: 'canvas' });
+  readonly status = el('span', { class: 'status', role: 'status' });
+  readonly legend = el('div', { class: 'card legend', hidden: true, 'aria-live': 'off' });
+  readonly element: HTMLElement;
+  readonly look: Look = { view: 'tets', edges: true, quality: false, ghost: false, clip: { on: false, axis: 0, position: 0.5, flip: false } };
+  readonly cut = { axis: 1, position: 0.5 };
+  private readonly views: Control<View>;
+  private readonly viewBar: HTMLElement;
+  private readonly playBar: HTMLElement;
+  readonly pauseButton: HTMLButtonElement;
+  private readonly cutTool: HTMLElement;
+  private readonly clipTool: HTMLElement;
+  private readonly clipRows: HTMLElement;
+  private readonly flags = new Map<string, HTMLButtonElement>();
+  playTets = false;
+
+  constructor(private readonly actions: ViewportActions, views: readonly (readonly [View, string])[] = kViews) {
+    this.views = choice({ id: 'view', label: 'View', hint: 'What is shown; also keys 1 to 5.', choices: views, change: (view) => actions.view(view) });
+    this.viewBar = strip(this.views.element);
+    const fit = el('button', { type: 'button', class: 'icon', title: 'Fit to view (F)', 'aria-label': 'Fit to view', onclick: () => actions.fit() }, icon('fit'));
+    this.pauseButton = el('button', { type: 'button', id: 'pause', onclick: () => actions.pause() }, icon('pause'), 'Pause');
+    const shown = choice({ id: 'play-view', label: 'Shown while playing', hint: '', choices: [['surface', 'Surface'], ['tets', 'Tets']],
+      change: (what: string) => {
+        this.playTets = what === 'tets';
+        actions.look();
+      } });
+    shown.show('surface');
+    this.playBar = el('div', { class: 'row', hidden: true }, strip(shown.element), this.pauseButton,
+      el('button', { type: 'button', id: 'reset', onclick: () => actions.reset() }, icon('reset'), 'Reset'),
+      el('button', { type: 'button', id: 'back', onclick: () => actions.stop() }, icon('close'), 'Back'));
+    this.cutTool = this.makeCutTool();
+    [this.clipTool, this.clipRows] = this.makeClipTool();
+    this.element = el('main', { class: 'without-model', 'aria-label': 'Model' }, this.canvas,
+      el('div', { class: 'bar top' }, this.viewBar, this.playBar, fit, this.status),
+      el('div', { class: 'bottom' }, el('div', {}, this.cutTool, this.clipTool), this.legend));
+  }
+
+  private makeCutTool(): HTMLElement {
+    const position = slider({ id: 'slice', label: 'Place of the slice', hint: '', min: 0, max: 1, step: 0.005,
+      change: (value) => {
+        this.cut.position = value;
+        this.actions.slice();
+      }, done: () => undefined });
+    position.show(this.cut.position);
+    const axis = choice({ id: 'slice-axis', label: 'Slice across', hint: '', choices: kAxes,
+      change: (value: string) => {
+        this.cut.axis = Number(value);
+        this.actions.slice();
+      } });
+    axis.show('1');
+    return el('div', { class: 'card tool', hidden: true }, el('div', { class: 'line' }, 'Slice across', strip(axis.element)), bare(position.element));
+  }
+
+  private makeClipTool(): [HTMLElement, HTMLElement] {
+    const { look } = this;
+    const flag = (key: 'edges' | 'quality' | 'ghost', text: string, hint: string) => {
+      const button = el('button', { type: 'button', 'aria-pressed': String(look[key]), title: hint, 'data-flag': key,
+        onclick: () => {
+          look[key] = !look[key];
+          button.setAttribute('aria-pressed', String(look[key]));
+          this.actions.look();
+        } }, text);
+      this.flags.set(key, button);
+      return button;
+    };
+    const change = (part: Partial<Look['clip']>) => {
+      Object.assign(look.clip, part);
+      rows.hidden = !look.clip.on;
+      this.actions.look();
+    };
+    const on = toggle({ id: 'clip', label: 'Cut away', hint: 'Hides whole tets on one side of a plane; teal faces lie inside.', change: (value) => change({ on: value }) });
+    const axis = choice({ id: 'clip-axis', label: 'Cut across', hint: '', choices: kAxes, change: (value: string) => change({ axis: Number(value) }) });
+    axis.show('0');
+    const position = slider({ id: 'clip-position', label: 'Place of the cut', hint: '', min: 0, max: 1, step: 0.005, change: (value) => change({ position: value }), done: () => undefined });
+    position.show(0.5);
+    const flip = el('button', { type: 'button', 'aria-pressed': 'false', onclick: () => {
+      change({ flip: !look.clip.flip });
+      flip.setAttribute('aria-pressed', String(look.clip.flip));
+    } }, 'Other side');
+    const rows = el('div', { class: 'tool-rows', hidden: true }, el('div', { class: 'line' }, strip(axis.element), flip), bare(position.element));
+    const tool = el('div', { class: 'card tool', hidden: true },
+      el('div', { class: 'row' }, flag('edges', 'Edges', 'Draw the edges of tets and triangles'), flag('quality', 'Quality', 'Colour each tet by its smallest angle'),
+        flag('ghost', 'Model', 'Show the model around the tets')), on.element, rows);
+    return [tool, rows];
+  }
+
+  setView(view: View): void {
+    this.look.view = view;
+    this.views.show(view);
+    this.refresh();
+  }
+
+  private refresh(): void {
+    const { view } = this.look;
+    const playing = !this.playBar.hidden;
+    const model = !this.element.classList.contains('without-model');
+    this.cutTool.hidden = playing || !model || view !== 'votes';
+    this.clipTool.hidden = playing || !model || view === 'votes';
+    (this.flags.get('quality') as HTMLElement).hidden = view !== 'tets' && view !== 'lattice';
+    (this.flags.get('ghost') as HTMLElement).hidden = view !== 'tets' && view !== 'lattice';
+    this.clipRows.hidden = !this.look.clip.on;
+  }
+
+  setModel(present: boolean): void {
+    this.element.classList.toggle('without-model', !present);
+    this.refresh();
+  }
+
+  setPlaying(playing: boolean): void {
+    this.playBar.hidden = !playing;
+    this.viewBar.hidden = playing;
+    this.refresh();
+    if (playing) this.legend.hidden = true;
+  }
+
+  setPaused(paused: boolean): void {
+    this.pauseButton.replaceChildren(icon(paused ? 'play' : 'pause'), paused ? 'Go on' : 'Pause');
+  }
+
+  setStatus(text: string, busy = false): void {
+    this.status.textContent = text;
+    this.status.hidden = !text;
+    this.status.classList.toggle('busy', busy);
+  }
+
+  showVotes(slice: Slice | null, dark: boolean): void {
+    this.legend.hidden = slice === null;
+    this.legend.classList.remove('histogram-only');
+    if (!slice) return;
+    const rays = slice.grid.rays || 26;
+    this.legend.replaceChildren(
+      el('strong', {}, 'Rays that say “inside”'),
+      el('div', { class: 'scale', style: `background: ${gradient(kVoteStops[dark ? 'dark' : 'light'])}` }),
+      el('div', { class: 'ends' }, el('span', {}, 'none: outside'), el('span', {}, `all ${rays}: inside`)),
+      el('div', {}, el('span', { class: 'swatch', style: `background: ${kBandColor}` }), 'Near a triangle, by reach k'),
+      el('div', {}, `Layer ${slice.layer + 1} of ${slice.grid.size[slice.axis]}`));
+  }
+
+  showAngles(bins: readonly number[], byQuality: boolean): void {
+    this.legend.hidden = false;
+    // On small screens there is room for a scale, but not for a histogram alone.
+    this.legend.classList.toggle('histogram-only', !byQuality);
+    const scale = [
+      el('strong', {}, 'Smallest angle of each tet'),
+      el('div', { class: 'scale', style: `background: ${gradient(kAngleStops)}` }),
+      el('div', { class: 'ends' }, ...kAngleStops.map(([at]) => el('span', {}, `${at}°`))),
+    ];
+    this.legend.replaceChildren(el('strong', {}, 'Angles between faces'), histogram(bins), ...(byQuality ? scale : []));
+  }
+
+  hideLegend(): void {
+    this.legend.hidden = true;
+  }
+}
+
+/** A choice without its label: the group says it to those who cannot see. */
+function strip(control: HTMLElement): HTMLElement {
+  const group = control.querySelector('.segments') as HTMLElement;
+  return group;
+}
+
+/** A slider alone, named by its label. */
+function bare(control: HTMLElement): HTMLElement {
+  const range = control.querySelector('input[type=range]') as HTMLInputElement;
+  range.setAttribute('aria-label', control.querySelector('label')?.textContent ?? '');
+  range.removeAttribute('aria-describedby');
+  return range;
+}

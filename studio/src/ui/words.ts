@@ -1,0 +1,122 @@
+// Reports in plain words. Every sentence says what is, and where something can be done about it, what.
+import { kUnits, type Settings } from '../state';
+import type { EmbedReport, Frame, Report, SoupReport } from '../core/protocol';
+
+export type Tone = 'plain' | 'good' | 'watch';
+export interface Sentence {
+  text: string;
+  tone: Tone;
+}
+
+const say = (text: string, tone: Tone = 'plain'): Sentence => ({ text, tone });
+
+export function count(n: number, one: string, many = one + 's'): string {
+  return `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
+}
+
+/** Lengths in a unit that is not known stay as they are. */
+export type Unit = Settings['unit'] | 'own';
+type Wanted = Pick<Settings, 'tets' | 'cavities'> & { unit: Unit };
+
+/** Two digits, in the unit that keeps them readable. */
+export function length(value: number, unit: Unit): string {
+  if (unit === 'own') return String(Number(value.toPrecision(2)));
+  const metres = value * kUnits[unit].metres;
+  if (metres === 0) return '0';
+  const [scale, name] = metres >= 1 ? [1, 'm'] : metres >= 0.01 ? [100, 'cm'] : [1000, 'mm'];
+  return `${Number((metres * scale).toPrecision(2)).toLocaleString('en')} ${name}`;
+}
+
+export function milliseconds(ms: number): string {
+  return ms < 10 ? `${ms.toFixed(1)} ms` : ms < 2000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`;
+}
+
+export function ofSoup(r: SoupReport, unit: Unit): Sentence[] {
+  const size = r.box.hi.map((hi, i) => length(hi - r.box.lo[i], unit)).join(' × ');
+  const said = [say(`${count(r.used_triangles, 'triangle')}, ${size}.`)];
+  if (r.class === 'empty') return [say('There is no usable triangle in this file. Choose another one.', 'watch')];
+  if (r.class === 'closed') said.push(say('Closed: every edge has two triangles.', 'good'));
+  if (r.boundary_edges) said.push(say(`${count(r.boundary_edges, 'open edge')}: holes are bridged, nothing to repair.`));
+  if (r.non_manifold_edges) said.push(say(`${count(r.non_manifold_edges, 'edge')} with more than two triangles. That is fine.`));
+  if (r.components > 1) said.push(say(`${count(r.components, 'part')} not connected by triangles.`));
+  const dropped = r.zero_area + r.duplicates + r.non_finite + r.index_out_of_range;
+  if (dropped) said.push(say(`${count(dropped, 'triangle')} left out: flat, doubled or not finite.`, 'watch'));
+  return said;
+}
+
+export function ofVolume(r: Report, s: Wanted): Sentence[] {
+  const p = r.pseudo_volume;
+  const said: Sentence[] = [];
+  if (!p.inside_voxels) {
+    return [say('Nothing counts as inside. Lower k, or take more voxels.', 'watch')];
+  }
+  const how = p.automatic ? `k = ${p.k.toFixed(3)}, chosen for you` : `k = ${p.k.toFixed(3)}`;
+  said.push(say(`${how}: gaps up to ${length(2 * p.band, s.unit)} count as closed.`));
+  if (p.largest_closure > 0 && r.soup.boundary_edges)
+    said.push(say(`Holes were closed up to ${length(p.largest_closure, s.unit)}.`));
+  said.push(say(`${count(p.inside_voxels, 'voxel')} of ${length(r.grid.voxel_size, s.unit)} lie inside.`));
+  if (p.cavity_voxels) said.push(say(`${count(p.cavity_voxels, 'voxel')} of enclosed space ${s.cavities === 'fill' ? 'were filled' : 'stay hollow'}.`));
+  if (p.soup_covered < 0.9) said.push(say(`Only ${Math.round(100 * p.soup_covered)} % of the triangles touch the inside. Lower k to take in more.`, 'watch'));
+  return said;
+}
+
+export function ofLattice(r: Report, s: Wanted): Sentence[] {
+  const l = r.lattice;
+  if (!l.tet_count) return [say('No tet is left. Lower the share that must be inside, or ask for more tets.', 'watch')];
+  const said = [say(`${count(l.tet_count, 'tet')} with edges of ${length(l.mean_edge, s.unit)} on average.`)];
+  const off = Math.abs(l.tet_count / s.tets - 1);
+  if (off > 0.1) said.push(say(`You asked for ${s.tets.toLocaleString('en')}: this shape allows no closer number.`, 'watch'));
+  if (l.thin_tets) said.push(say(`${count(l.thin_tets, 'tet')} kept where the shape is thinner than a cell.`));
+  if (l.topology.touching_mended) said.push(say(`${count(l.topology.touching_mended, 'place')} mended where tets met in a point or an edge only.`));
+  if (l.topology.parts_dropped) said.push(say(`${count(l.topology.parts_dropped, 'crumb')} dropped.`));
+  return said;
+}
+
+export function ofSmoothing(r: Report): Sentence[] {
+  const q = r.quality;
+  if (!q.tet_count) return [];
+  const good = r.readiness.passed;
+  const said = [say(`Smallest angle ${q.min_dihedral_deg.toFixed(0)}°, largest ${q.max_dihedral_deg.toFixed(0)}°.`, good ? 'good' : 'plain')];
+  const kept = 100 * (q.volume / r.lattice.kept_volume - 1);
+  said.push(say(`Volume ${Math.abs(kept) < 0.05 ? 'kept' : `${kept > 0 ? '+' : '−'}${Math.abs(kept).toFixed(1)} % against the lattice`}.`));
+  said.push(good ? say('Ready for simulation: every check passes.', 'good') : say('Some checks do not pass:', 'watch'));
+  for (const check of Object.values(r.readiness.checks)) if (!check.passed && check.advice) said.push(say(check.advice, 'watch'));
+  if (q.components > 1) said.push(say(`The mesh has ${count(q.components, 'piece')}.`));
+  return said;
+}
+
+export function ofEmbedding(r: EmbedReport, unit: Unit): Sentence[] {
+  const e = r.embedding;
+  const all = e.inside + e.outside;
+  const said = [say(`${count(all, 'vertex', 'vertices')} of the model hang on the tets; ${Math.round((100 * e.inside) / Math.max(all, 1))} % lie inside one.`)];
+  if (e.outside) said.push(say(`The others follow the nearest tet, at most ${length(e.max_distance, unit)} away.`));
+  if (e.non_finite) said.push(say(`${count(e.non_finite, 'vertex', 'vertices')} are not finite and stay behind.`, 'watch'));
+  return said;
+}
+
+export function ofPlay(frame: Frame, rate: number, drawing: number, simulating: number): string {
+  return `${frame.time.toFixed(1)} s · ${Math.round(rate)} frames/s · simulating ${milliseconds(simulating)} · drawing ${milliseconds(drawing)} a frame`;
+}
+
+export function pascals(young: number): string {
+  return young >= 1e6 ? `${(young / 1e6).toPrecision(2)} MPa` : `${(young / 1e3).toPrecision(2)} kPa`;
+}
+
+/** What a stiffness feels like. */
+export function likeWhat(young: number): string {
+  return young < 1.5e4 ? 'jelly' : young < 8e4 ? 'soft foam' : young < 5e5 ? 'soft rubber' : young < 3e6 ? 'rubber' : 'hard rubber';
+}
+
+/** The library's errors name an option of scene files; the page says what to do about it. */
+export function ofError(message: string, status: number): string {
+  if (/memory|too many voxels|voxels fit/i.test(message)) return `Too many voxels for this page's memory. ${sentence(message)} Choose fewer voxels.`;
+  if (status === 4) return 'The memory of this page is used up. Choose fewer voxels or tets, or reload the page.';
+  if (status === 2) return `This file cannot be read. ${sentence(message)} Export it again as OBJ, STL, PLY, OFF or GLB.`;
+  if (status === 5) return `Something went wrong inside tetsoup: ${sentence(message)} Reload the page; if it happens again, please report it.`;
+  return sentence(message.replace(/^mesh\./, ''));
+}
+
+function sentence(text: string): string {
+  const trimmed = text.trim();
+  return trimmed.charAt(0).toUpperCase() + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? '' : '.');
+}

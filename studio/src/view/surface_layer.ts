@@ -1,0 +1,77 @@
+// Triangles: the soup as it came, the surface that hangs on the tets, what bodies fall onto.
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Plane,
+  Vector3, WireframeGeometry,
+} from 'three';
+import type { Clip } from './tet_layer';
+
+export class SurfaceLayer extends Group {
+  readonly material = new MeshLambertMaterial({ side: DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  private readonly edgeMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.35 });
+  readonly mesh = new Mesh(new BufferGeometry(), this.material);
+  private wires: LineSegments | null = null;
+  private wired = false;
+
+  constructor() {
+    super();
+    this.add(this.mesh);
+  }
+
+  set(vertices: Float32Array, triangles: Uint32Array): void {
+    this.mesh.geometry.dispose();
+    this.mesh.geometry = new BufferGeometry();
+    this.mesh.geometry.setAttribute('position', new BufferAttribute(vertices, 3));
+    // Files may hold any index; those that point nowhere are not drawn.
+    const count = vertices.length / 3;
+    const sound = triangles.every((v) => v < count) ? triangles : kept(triangles, count);
+    this.mesh.geometry.setIndex(new BufferAttribute(sound, 1));
+    this.wires?.removeFromParent();
+    this.wires = null;
+    this.setLook(this.wired);
+  }
+
+  move(vertices: Float32Array, normals: Float32Array): void {
+    const { geometry } = this.mesh;
+    geometry.setAttribute('position', new BufferAttribute(vertices, 3));
+    this.material.flatShading = normals.length === 0;
+    if (normals.length) geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+    geometry.computeBoundingSphere();
+  }
+
+  setColors(face: string, edge: string, opacity = 1): void {
+    this.material.color.set(face);
+    this.edgeMaterial.color.set(edge);
+    this.material.opacity = opacity;
+    this.material.transparent = opacity < 1;
+    this.material.depthWrite = opacity === 1;
+  }
+
+  setLook(edges: boolean): void {
+    this.wired = edges;
+    if (edges && !this.wires && this.mesh.geometry.index) {
+      this.wires = new LineSegments(new WireframeGeometry(this.mesh.geometry), this.edgeMaterial);
+      this.add(this.wires);
+    }
+    if (this.wires) this.wires.visible = edges;
+  }
+
+  /** The plane of `clip` in this layer's own coordinates. */
+  setClip(clip: Clip | null): void {
+    const planes: Plane[] = [];
+    if (clip) {
+      const normal = new Vector3().setComponent(clip.axis, -clip.sign);
+      this.updateWorldMatrix(true, false);
+      planes.push(new Plane(normal, clip.sign * clip.at).applyMatrix4(this.matrixWorld));
+    }
+    this.material.clippingPlanes = this.edgeMaterial.clippingPlanes = planes;
+  }
+}
+
+function kept(triangles: Uint32Array, count: number): Uint32Array {
+  const out: number[] = [];
+  for (let i = 0; i < triangles.length; i += 3) {
+    const three = triangles.subarray(i, i + 3);
+    if (three.every((v) => v < count)) out.push(...three);
+  }
+  return new Uint32Array(out);
+}

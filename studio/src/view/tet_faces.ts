@@ -1,0 +1,53 @@
+// Which faces of a tet mesh are to be seen when some tets are cut away: those of a tet that stands, towards one that
+// does not. Whole tets are cut, so that what is seen is what is there.
+
+/** Corners of the face opposite each corner, counter-clockwise from outside of a positive tet. */
+const kFaces = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+
+export class TetFaces {
+  /** The tet behind each of a tet's four faces; -1 on the boundary. */
+  private readonly neighbours: Int32Array;
+  readonly count: number;
+
+  constructor(readonly tets: Uint32Array, vertexCount: number) {
+    this.count = tets.length / 4;
+    this.neighbours = new Int32Array(tets.length).fill(-1);
+    const open = new Map<number | string, number>();
+    // Three vertex numbers fit into a number's 53 bits up to here.
+    const small = vertexCount < 200000;
+    for (let face = 0; face < tets.length; ++face) {
+      const [a, b, c] = this.corners(face).sort((x, y) => x - y);
+      const key = small ? (a * vertexCount + b) * vertexCount + c : `${a},${b},${c}`;
+      const other = open.get(key);
+      if (other === undefined) open.set(key, face);
+      else {
+        this.neighbours[face] = other >> 2;
+        this.neighbours[other] = face >> 2;
+        open.delete(key);
+      }
+    }
+  }
+
+  /** Vertices of a face: 4 times its tet and the number of the corner it is opposite to. */
+  corners(face: number): [number, number, number] {
+    const first = face & ~3;
+    const [a, b, c] = kFaces[face & 3];
+    return [this.tets[first + a], this.tets[first + b], this.tets[first + c]];
+  }
+
+  /** Faces to be seen, and whether each is one that the cut laid open. */
+  visible(stands: (tet: number) => boolean): { faces: Uint32Array; cut: Uint8Array } {
+    const here = new Uint8Array(this.count);
+    for (let tet = 0; tet < this.count; ++tet) here[tet] = stands(tet) ? 1 : 0;
+    const faces: number[] = [];
+    const cut: number[] = [];
+    for (let face = 0; face < this.tets.length; ++face) {
+      if (!here[face >> 2]) continue;
+      const behind = this.neighbours[face];
+      if (behind >= 0 && here[behind]) continue;
+      faces.push(face);
+      cut.push(behind >= 0 ? 1 : 0);
+    }
+    return { faces: new Uint32Array(faces), cut: new Uint8Array(cut) };
+  }
+}
