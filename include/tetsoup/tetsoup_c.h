@@ -6,9 +6,10 @@
  * Functions that can fail return a status and give their results through their last arguments, which they leave alone
  * when they fail; tetsoup_last_error() says what was wrong. No exception leaves these functions.
  *
- * Views point into a handle: `count` rows of `width` numbers each. They hold until the next call that has the same
- * handle as its first argument and is not one that only gives a view, and no longer than the handle. Texts are UTF-8,
- * end with a zero, and hold until the next call on the same thread that gives a text.
+ * Views point into a handle: `count` rows of `width` numbers each. They hold until the handle is changed (run, stepped,
+ * given something) or destroyed; slices and qualities only until the next of their kind. Where a simulation's views
+ * hold longer, it says so. Texts are UTF-8, end with a zero, and hold until the next call on the same thread that gives
+ * a text.
  *
  * Options are JSON texts with the keys of scene files (docs/SCENES.md); NULL stands for "{}", and what is left out is
  * as by default. Lengths, directions and signs are as in tetsoup/types.h: tets are positive, boundary triangles
@@ -148,9 +149,8 @@ tetsoup_status tetsoup_pipeline_tet_quality(tetsoup_pipeline* pipeline, tetsoup_
                                             tetsoup_floats* values);
 /* The grid, once the distance is there. */
 tetsoup_status tetsoup_pipeline_grid(const tetsoup_pipeline* pipeline, tetsoup_grid* grid);
-/* One layer of voxels across an axis (0, 1, 2: x, y, z): `count` rows of `width` voxels; across x, rows run along z and
- * their voxels along y; across y along z and x; across z along y and x. The view is as those of other layers: it holds
- * until the next slice. */
+/* One layer of voxels across an axis (0, 1, 2: x, y, z): `count` rows of `width` voxels. Across x the voxels of a row
+ * follow each other along y, and the rows along z; across y along x and z; across z along x and y. */
 tetsoup_status tetsoup_pipeline_slice(tetsoup_pipeline* pipeline, tetsoup_field field, int32_t axis, int32_t layer,
                                       tetsoup_floats* values);
 /* JSON of all that is up to date: "soup", "grid", "pseudo_volume", "lattice", "smooth", "lattice_quality", "quality"

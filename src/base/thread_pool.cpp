@@ -21,6 +21,9 @@ namespace {
 /// other faster than a thread wakes.
 constexpr int kTurns = 20000;
 
+/// Loops of fewer chunks are over before a thread that sleeps has woken.
+constexpr std::int64_t kFewChunks = 4;
+
 thread_local bool t_in_loop = false;
 
 int core_count() {
@@ -54,7 +57,7 @@ class Pool {
 
   void run(const Loop& loop) {
     std::unique_lock mine(callers_, std::defer_lock);
-    if (loop.chunks < 2 || size() < 2 || t_in_loop || !mine.try_lock()) {
+    if (loop.chunks < kFewChunks || size() < 2 || t_in_loop || !mine.try_lock()) {
       for (std::int64_t chunk = 0; chunk < loop.chunks; ++chunk) loop.run(loop.context, chunk);
       return;
     }

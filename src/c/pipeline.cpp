@@ -32,7 +32,7 @@ const TetMesh& mesh_of(const tetsoup_pipeline& p, tetsoup_mesh mesh) {
 void run_until(tetsoup_pipeline& p, Stage last, const char* json, const Progress& progress) {
   MeshOptions options = parse_mesh_options(c::options_or_none(json));
   options.memory_limit = p.memory_limit;
-  p.done = std::min(p.done, Stage::Soup);
+  p.done = Stage::Soup;
   p.boundaries = {};
   p.options = options;
   for (int stage = static_cast<int>(Stage::Distance); stage <= static_cast<int>(last); ++stage) {
