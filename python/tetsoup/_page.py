@@ -65,6 +65,7 @@ def _as_json(report: Report | None) -> str:
 
 def make_page(mesh: TetMesh, surface: Any, title: str, up: str, height: int) -> Page:
     """The page of a mesh, with a surface around it that may be None."""
-    vertices, faces = as_soup(np.empty((0, 3), np.float32), np.empty((0, 3), np.uint32)) if surface is None else as_soup(surface)
+    nothing = np.empty((0, 3))
+    vertices, faces = as_soup(nothing, nothing) if surface is None else as_soup(surface)
     report = mesh.__dict__.get("report")
     return Page(_core.report_page(mesh._handle, vertices, faces, title, up, _as_json(report)), height)
