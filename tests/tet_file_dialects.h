@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/base64.h"
+#include "base/base64.h"
 #include "io/number_text.h"
 #include "io/raw_numbers.h"
 #include "tetsoup/types.h"

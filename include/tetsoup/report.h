@@ -39,7 +39,7 @@ struct ReportPage {
   const TriangleSoup* soup = nullptr;  ///< Shown around it, if it is there.
   std::string up = "z";                ///< The axis that points up: "x", "y" or "z".
   double metres_per_unit = 1;          ///< 1: lengths are shown without a unit.
-  std::string json;                    ///< Object as `tetsoup mesh --json` writes; what it lacks is not shown.
+  std::string json;  ///< Object as `tetsoup mesh --json` writes; what it lacks is measured or not shown.
 };
 
 /// One page of HTML that needs nothing else, and no network: the mesh in 3D with a plane that cuts it, the histogram of

@@ -7,6 +7,7 @@
 #include "progress.h"
 #include "records.h"
 #include "tetsoup/io.h"
+#include "tetsoup/report.h"
 
 namespace tetsoup::python {
 
@@ -24,6 +25,11 @@ void bind_files(nb::module_& m) {
     std::map<std::string, std::string> formats;
     for (const TetFormatInfo& info : tet_formats()) formats[info.name] = info.summary;
     return formats;
+  });
+  m.def("report_page", [](const TetMesh& mesh, PointsIn vertices, FacesIn faces, const std::string& title,
+                          const std::string& up, const std::string& json) {
+    const TriangleSoup soup = copy_soup(vertices, faces);
+    return call_unlocked([&] { return report_page({title, &mesh, &soup, up, 1, json}); });
   });
   m.def("usable_memory", [] { return usable_memory(); });
 }

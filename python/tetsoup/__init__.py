@@ -40,6 +40,7 @@ from tetsoup._core import (
 from tetsoup._embedding import Embedding, embed, read_embedding
 from tetsoup._mesh import Report, TetMesh
 from tetsoup._model import Material, Regions
+from tetsoup._page import Page
 from tetsoup._progress import Progress, tqdm_progress
 from tetsoup._simulation import Simulation
 from tetsoup._soup_input import Soup, as_soup
@@ -207,6 +208,7 @@ __all__ = [
     "MaterialOptions",
     "MeshOptions",
     "Momentum",
+    "Page",
     "Part",
     "Pipeline",
     "PoseOptions",

@@ -16,6 +16,7 @@ from tetsoup import _core, _interop, _model
 from tetsoup._core import InvalidInput
 from tetsoup._embedding import Embedding, embed
 from tetsoup._model import Axis, Body, Material, PartKind, Regions, make_model
+from tetsoup._page import Page, make_page
 from tetsoup._soup_input import as_indices, as_points, as_triple
 
 if TYPE_CHECKING:
@@ -249,6 +250,24 @@ class TetMesh:
             >>> mesh.save("robot", engine="mujoco", pins={"hand": mesh.vertices_near("robot.obj", "hand")})
         """
         return _model.vertices_near(self, surface, name, progress)
+
+    def show(self, surface: Any = None, *, title: str = "mesh", up: Axis = "z", height: int = 600) -> Page:
+        """A page that shows the mesh in 3D, its angles, and how it was made: notebooks display it.
+
+        Args:
+            surface: shown around the mesh: what `tetrahedralize` takes as one object.
+            title: of the page.
+            up: axis of the mesh that points up.
+            height: pixels in a notebook.
+
+        Raises:
+            tetsoup.InvalidInput: for another `up`, or if the surface cannot be understood.
+
+        Example:
+            >>> mesh.show("bunny.obj", up="y")
+            >>> mesh.show().save("bunny.html")
+        """
+        return make_page(self, surface, title, up, height)
 
     def to_meshio(self) -> Any:
         """A `meshio.Mesh` with one block of tetra. Example: ``mesh.to_meshio().write("bunny.xdmf")``."""

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/base64.h"
+#include "base/base64.h"
 #include "io/number_stream.h"
 #include "io/tet_readers.h"
 #include "io/tet_scanner.h"

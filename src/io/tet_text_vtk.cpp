@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "io/base64.h"
+#include "base/base64.h"
 #include "io/model_parts.h"
 #include "io/number_text.h"
 #include "io/raw_numbers.h"

@@ -6,10 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "io/atomic_file.h"
-#include "io/base64.h"
+#include "base/base64.h"
 #include "report/page_template.h"
 #include "tetsoup/error.h"
+#include "tetsoup/io.h"
+#include "tetsoup/quality.h"
+#include "tetsoup/readiness.h"
 #include "tetsoup/report.h"
 
 namespace tetsoup {
@@ -46,7 +48,11 @@ Json surface_json(const TriangleSoup* soup) {
 Json parsed(const ReportPage& page) {
   Json json = Json::parse(page.json.empty() ? "{}" : page.json, nullptr, false);
   if (!json.is_object()) throw InvalidInput("report: json is not a JSON object");
-  if (!json.contains("quality")) json["quality"] = Json::parse(to_json(measure_quality(*page.mesh)));
+  if (json.contains("quality") && json.contains("readiness")) return json;
+  const Quality quality = measure_quality(*page.mesh);
+  const Material material;
+  json["quality"] = Json::parse(to_json(quality));
+  json["readiness"] = Json::parse(to_json(assess_readiness(*page.mesh, quality, material), material));
   return json;
 }
 
@@ -83,9 +89,7 @@ std::string report_page(const ReportPage& page) {
 
 void write_report_page(const std::filesystem::path& path, const ReportPage& page) {
   const std::string html = report_page(page);
-  AtomicFile file(path);
-  file.write(html);
-  file.commit();
+  write_file_atomic(path, std::as_bytes(std::span(html)));
 }
 
 }  // namespace tetsoup

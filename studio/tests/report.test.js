@@ -21,7 +21,7 @@ test('the committed template is the one that its sources make', () => {
   execFileSync(join(root, 'node_modules/.bin/vite'), ['build', '--config', 'vite.report.config.ts', '--logLevel', 'error'],
     { cwd: root, env: { ...process.env, REPORT_TARGET: rebuilt } });
   assert.ok(readFileSync(rebuilt).equals(readFileSync(join(root, 'report/report.html'))),
-    'studio/report/report.html is old; npm run build in studio/ makes it anew');
+    'studio/report/report.html is old; npm run report in studio/ makes it anew');
 });
 
 test('a report opens from disk, asks for nothing, and shows the mesh', async (t) => {

@@ -1,0 +1,49 @@
+"""TetMesh.show: one page that notebooks display, and that needs nothing else."""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from typing import Any
+
+import pytest
+import tetsoup
+
+
+def data_of(page: str) -> Any:
+    found = re.search(r'id="tetsoup-report">(.*?)</script>', page, re.DOTALL)
+    assert found
+    return json.loads(found.group(1))
+
+
+def test_a_mesh_is_shown_with_how_it_was_made() -> None:
+    soup = tetsoup.sample("torus")
+    mesh = tetsoup.tetrahedralize(soup, voxels=32, tets=300)
+    page = mesh.show(soup, title="torus")
+    data = data_of(page.html)
+    assert data["report"]["quality"]["tet_count"] == len(mesh.tets)
+    assert data["report"]["soup"]["class"] == "closed"
+    assert data["surface"] is not None
+
+
+def test_a_notebook_gets_a_frame_that_asks_for_nothing() -> None:
+    mesh = tetsoup.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+    page = mesh.show(height=400)
+    frame = page._repr_html_()
+    assert frame.startswith("<iframe srcdoc=") and 'height="400"' in frame
+    inner = html.unescape(frame.split('srcdoc="', 1)[1].split('" title=', 1)[0])
+    assert inner == page.html
+    assert not re.search(r'(src|href)="(https?:)?//|@import|<link rel="stylesheet"', inner)
+
+
+def test_a_page_is_saved(tmp_path: Any) -> None:
+    mesh = tetsoup.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+    path = mesh.show().save(tmp_path / "corner.html")
+    assert data_of(path.read_text(encoding="utf-8"))["title"] == "mesh"
+
+
+def test_another_axis_is_refused() -> None:
+    mesh = tetsoup.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+    with pytest.raises(tetsoup.InvalidInput, match="up"):
+        mesh.show(up="w")  # type: ignore[arg-type]
