@@ -103,8 +103,7 @@ std::string_view open_member(std::string_view bytes, const std::string& name, co
   header.take(name_size + extra);
   offset = header.at();
   const std::string_view content = header.take(member.size);
-  if (crc32(content) != member.checksum)
-    fail_in_file(name, offset, "an array's checksum is wrong");
+  if (crc32(content) != member.checksum) fail_in_file(name, offset, "an array's checksum is wrong");
   return content;
 }
 
