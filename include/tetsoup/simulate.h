@@ -139,8 +139,7 @@ class Simulation {
   void add_plane(const Vec3d& normal, double offset, double friction = kDefaultFriction);
   /// Keeps bodies out of the pseudo volume of any soup, by its signed distance on a grid of so many voxels.
   /// @throws InvalidInput  if the soup has no finite triangle, a number is out of range, or the grid would have more
-  /// than
-  ///                       1.5e8 voxels; Cancelled.
+  ///                       than 1.5e8 voxels; Cancelled.
   void add_obstacle(const TriangleSoup& soup, int voxels = kDefaultObstacleVoxels, double friction = kDefaultFriction,
                     const Progress& progress = {});
 
