@@ -175,14 +175,11 @@ tetsoup_status tetsoup_simulation_surface(tetsoup_simulation* simulation, size_t
     tetsoup_simulation& s = c::given(simulation, "simulation");
     tetsoup_simulation::Body& b = s.body(body);
     const std::span<const Vec3> positions = s.simulation().positions(body);
-    if (b.make->render.vertices.empty()) {
-      if (vertices != nullptr) *vertices = c::view_of(positions);
-      if (normals != nullptr) *normals = c::view_of(b.normals);
-      return;
-    }
-    c::deform(*b.make, positions, vertices == nullptr ? nullptr : &b.surface,
-              normals == nullptr ? nullptr : &b.normals);
-    if (vertices != nullptr) *vertices = c::view_of(b.surface);
+    const bool has_surface = !b.make->render.vertices.empty();
+    if (has_surface)
+      c::deform(*b.make, positions, vertices == nullptr ? nullptr : &b.surface,
+                normals == nullptr ? nullptr : &b.normals);
+    if (vertices != nullptr) *vertices = c::view_of(has_surface ? std::span<const Vec3>(b.surface) : positions);
     if (normals != nullptr) *normals = c::view_of(b.normals);
   });
 }
