@@ -14,9 +14,6 @@
 
 namespace tetsoup {
 
-/// "closed", "open", "soup" or "empty".
-const char* soup_class_name(SoupClass kind);
-
 std::string to_json(const SoupReport& soup);
 std::string to_json(const DistanceField& field);  ///< Its grid, and the memory that takes.
 std::string to_json(const PseudoVolumeReport& report);

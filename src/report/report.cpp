@@ -46,8 +46,6 @@ Json topology_json(const TopologyReport& report) {
           {"boundary_only_edges", report.boundary_only_edges}};
 }
 
-}  // namespace
-
 const char* soup_class_name(SoupClass kind) {
   switch (kind) {
     case SoupClass::Closed:
@@ -61,6 +59,8 @@ const char* soup_class_name(SoupClass kind) {
   }
   return "empty";
 }
+
+}  // namespace
 
 std::string to_json(const SoupReport& soup) {
   Json box = nullptr;
