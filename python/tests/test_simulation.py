@@ -327,7 +327,9 @@ def test_simulations_run_in_parallel_but_one_lets_a_single_thread_in(torus):
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 def test_ctrl_c_ends_a_loop_of_steps():
     program = """
+import signal
 import tetsoup
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell ignores it for what it starts in the background
 simulation = tetsoup.Simulation()
 simulation.add_body(tetsoup.tetrahedralize(tetsoup.sample("torus"), voxels=32, cells=8))
 print("begins", flush=True)
