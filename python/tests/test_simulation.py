@@ -327,9 +327,7 @@ def test_simulations_run_in_parallel_but_one_lets_a_single_thread_in(torus):
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 def test_ctrl_c_ends_a_loop_of_steps():
     program = """
-import signal
 import tetsoup
-signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell ignores it for what it starts in the background
 simulation = tetsoup.Simulation()
 simulation.add_body(tetsoup.tetrahedralize(tetsoup.sample("torus"), voxels=32, cells=8))
 print("begins", flush=True)
@@ -337,7 +335,11 @@ while True:
     simulation.step(1 / 60)
 """
     process = subprocess.Popen(
-        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", program],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell ignores it in the background
     )
     assert process.stdout is not None and process.stdout.readline() == "begins\n"
     time.sleep(0.2)
