@@ -47,7 +47,7 @@ export class App {
 
   constructor(private readonly root: HTMLElement) {
     this.viewport = new Viewport({
-      view: (view) => this.setView(view), look: () => this.showLook(), slice: () => this.askSlice(), fit: () => this.fit(),
+      view: (view) => this.store.set({ view }), look: () => this.showLook(), slice: () => this.askSlice(), fit: () => this.fit(),
       pause: () => this.play.pause(), reset: () => this.play.reset(), stop: () => this.stopPlaying(),
     });
     this.empty = emptyState(null, () => this.picker.click(), () => undefined, () => undefined);
@@ -93,7 +93,7 @@ export class App {
       } else if (!typing && !event.ctrlKey && !event.metaKey && !event.altKey && !(event.target instanceof HTMLSelectElement)) {
         if (event.key.toLowerCase() === 'f') this.fit();
         const view = (['soup', 'votes', 'lattice', 'tets', 'surface'] as View[])[Number(event.key) - 1];
-        if (view && this.soup && !this.play.on) this.setView(view);
+        if (view && this.soup && !this.play.on) this.store.set({ view });
       }
     });
   }
@@ -107,7 +107,7 @@ export class App {
       case 'soup': return this.onSoup(reply.surface, reply.report);
       case 'mesh': return reply.job === this.meshJob ? this.onMesh(reply.result, reply.done) : undefined;
       case 'slice': return reply.job === this.sliceJob ? this.showSlice(reply.slice) : undefined;
-      case 'progress': return this.viewport.setStatus(`${stageName(reply.stage)} ${Math.round(100 * reply.fraction)} %`, true);
+      case 'progress': return this.viewport.setStatus(`${words.stageName(reply.stage)} ${Math.round(100 * reply.fraction)} %`, true);
       case 'embed': return this.panels?.report('embedding', '', words.ofEmbedding(reply.report, this.store.now.unit));
       case 'files':
         downloadFiles(this.exportStem, reply.files);
@@ -122,7 +122,7 @@ export class App {
   private onReady(catalog: Catalog): void {
     this.panels = new Panels(this.store, {
       open: () => this.picker.click(), sample: (name) => this.openSample(name), gizmo: (mode) => this.view.showFrame(mode),
-      embed: () => this.client.ask({ type: 'embed' }), showSurface: () => this.setView('surface'), play: (scene) => this.startPlaying(scene),
+      embed: () => this.client.ask({ type: 'embed' }), showSurface: () => this.store.set({ view: 'surface' }), play: (scene) => this.startPlaying(scene),
     }, catalog);
     this.root.querySelector('aside')?.replaceWith(this.panels.element);
     const empty = emptyState(catalog, () => this.picker.click(), (name) => this.openSample(name), () => this.startPlaying('robots-on-tree'));
@@ -179,7 +179,7 @@ export class App {
     this.stage.onDrawn(() => {
       const time = performance.now() - this.wishedAt;
       this.viewport.setStatus(done ? `${words.count(result.report.quality.tet_count, 'tet')} in ${words.milliseconds(time)}` : 'Coarse answer, refining', !done);
-      this.viewport.status.title = Object.entries(result.report.seconds).map(([stage, s]) => `${stageName(stage)}: ${words.milliseconds(1000 * s)}`).join('\n');
+      this.viewport.status.title = Object.entries(result.report.seconds).map(([stage, s]) => `${words.stageName(stage)}: ${words.milliseconds(1000 * s)}`).join('\n');
       Object.assign(this.root.dataset, { state: done ? 'done' : 'coarse', tets: result.report.quality.tet_count, job: this.meshJob,
         ms: time.toFixed(1), core: result.milliseconds.toFixed(1), seconds: JSON.stringify(result.report.seconds) });
     });
@@ -261,12 +261,6 @@ export class App {
 
   private askSlice(): void {
     if (this.meshDone) this.sliceJob = this.client.ask({ type: 'slice', slice: this.viewport.cut });
-  }
-
-  private setView(view: View): void {
-    this.store.set({ view });
-    this.viewport.setView(view);
-    this.showLook();
   }
 
   private startPlaying(scene: string | null): void {
@@ -389,12 +383,3 @@ export class App {
     this.notice.hidden = false;
   }
 }
-
-const kStageNames: Record<string, string> = {
-  soup: 'Looking at the soup', distance: 'Measuring distances', pseudo_volume: 'Deciding what is inside',
-  lattice: 'Filling with tets', smooth: 'Smoothing', embed: 'Hanging the surface', quality: 'Measuring the mesh',
-};
-function stageName(stage: string): string {
-  return kStageNames[stage.replace(/ /g, '_')] ?? stage.charAt(0).toUpperCase() + stage.slice(1);
-}
-

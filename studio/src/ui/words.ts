@@ -120,3 +120,13 @@ function sentence(text: string): string {
   const trimmed = text.trim();
   return trimmed.charAt(0).toUpperCase() + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? '' : '.');
 }
+
+const kStageNames: Record<string, string> = {
+  soup: 'Looking at the soup', distance: 'Measuring distances', pseudo_volume: 'Deciding what is inside',
+  lattice: 'Filling with tets', smooth: 'Smoothing', embed: 'Hanging the surface', quality: 'Measuring the mesh',
+};
+/** What a stage does, while it does it. */
+export function stageName(stage: string): string {
+  return kStageNames[stage.replace(/ /g, '_')] ?? stage.charAt(0).toUpperCase() + stage.slice(1);
+}
+
