@@ -71,6 +71,8 @@ std::vector<std::pair<double, std::uint32_t>> triangles_within(const RestSurface
   kernel::find_boxes_around(surface.boxes, std::span(&point, 1), static_cast<float>(reach * kRounded), {}, boxes);
   std::vector<std::pair<double, std::uint32_t>> found;
   for (const kernel::PointInBox& b : boxes) {
+    const Ball& ball = surface.balls[b.box];
+    if (length(p - ball.centre) > (reach + ball.radius) * kRounded) continue;
     const double distance = distance_to(surface, piece, b.box, p);
     if (distance <= reach) found.emplace_back(distance, b.box);
   }
@@ -202,7 +204,7 @@ void find_near_triangles(RestSurface& surface, const Piece& piece, std::uint32_t
   // Distance is 1-Lipschitz: what is nearest somewhere in the ball is at most so much farther from its middle; what
   // faces some way counts up to a mean edge from the ball. How far the nearest is, is not known at first, nor in the
   // middle of a large piece after one look.
-  for (double reach = radius + piece.mean_edge;; reach = std::max(2 * reach, found.empty() ? 0 : least + 2 * radius)) {
+  for (double reach = radius + piece.mean_edge;; reach = found.empty() ? 2 * reach : least + 2 * radius) {
     found = triangles_within(surface, piece, middle, reach);
     if (!found.empty()) least = found.front().first;
     if (reach >= least + 2 * radius) break;
