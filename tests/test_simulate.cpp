@@ -247,6 +247,26 @@ Simulation busy_simulation() {
   return simulation;
 }
 
+TEST(Simulate, AStoppedStepEndsWithAWholeSubstepAndGoesOn) {
+  Simulation simulation(in_space());
+  simulation.add_body(block(), {}, {.velocity = {1, 0, 0}});
+  double told = 0;
+  simulation.step(0.1, [&](std::string_view, double fraction) {
+    told = fraction;
+    return true;
+  });
+  EXPECT_EQ(told, 1);
+  const int substeps = simulation.report().substeps;
+  const double before = mean_of(simulation.positions(0)).x;
+  EXPECT_THROW(simulation.step(0.1, [](std::string_view, double fraction) { return fraction < 0.35; }), Cancelled);
+  const int done = simulation.report().substeps;
+  EXPECT_EQ(done, std::ceil(0.35 * substeps));
+  EXPECT_NEAR(simulation.time(), 0.1 + 0.1 * done / substeps, 1e-12);
+  EXPECT_NEAR(mean_of(simulation.positions(0)).x - before, 0.1 * done / substeps, 1e-6);
+  simulation.step(0.2 - simulation.time());
+  EXPECT_NEAR(mean_of(simulation.positions(0)).x - before, 0.1, 1e-6);
+}
+
 TEST(Simulate, GoesOnFromASavedStateToTheBit) {
   Simulation first = busy_simulation(), second = busy_simulation();
   for (int i = 0; i < 20; ++i) first.step(kFrame);

@@ -25,10 +25,12 @@ Progress Watch::progress() {
   return [this](std::string_view stage, double fraction) { return call(stage, fraction); };
 }
 
-/// Every stage's begin and end, and in between now and then. A stage may run again: its fraction then starts anew.
+/// Every stage's begin and end, and in between now and then. A stage may run again: its fraction then starts anew. With
+/// nobody to tell it is Ctrl-C alone that matters, and short work never takes the lock.
 bool Watch::is_due(std::string_view stage, double fraction) {
   const Clock::time_point now = Clock::now();
-  const bool news = stage != stage_ || fraction < fraction_ || (fraction >= 1 && fraction_ < 1);
+  const bool news =
+      !callback_.is_none() && (stage != stage_ || fraction < fraction_ || (fraction >= 1 && fraction_ < 1));
   if (!news && now - last_call_ < kBetweenCalls) return false;
   stage_ = stage;
   fraction_ = fraction;

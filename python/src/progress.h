@@ -39,7 +39,7 @@ class Watch {
   bool on_main_thread_ = false;
   std::string stage_;  ///< Told last,
   double fraction_ = 0;
-  Clock::time_point last_call_{};
+  Clock::time_point last_call_ = Clock::now();
   std::optional<nb::python_error> raised_;
 };
 

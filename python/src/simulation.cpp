@@ -110,7 +110,9 @@ void bind_simulation(nb::module_& m) {
   bind_results(m);
   nb::class_<S> simulation(m, "Simulation");
   bind_scene(simulation);
-  simulation.def("step", [](S& self, double dt) { call_unlocked([&] { self.step(dt); }); })
+  simulation
+      .def("step",
+           [](S& self, double dt) { call_library(nb::none(), [&](const Progress& watch) { self.step(dt, watch); }); })
       .def("body_count", &S::body_count)
       .def("time", &S::time)
       .def("positions", [](nb::handle_t<S> self,

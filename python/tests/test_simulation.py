@@ -325,14 +325,20 @@ def test_simulations_run_in_parallel_but_one_lets_a_single_thread_in(torus):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-def test_ctrl_c_ends_a_loop_of_steps():
+def test_ctrl_c_ends_a_long_step_and_the_simulation_can_go_on():
     program = """
 import tetsoup
-simulation = tetsoup.Simulation()
-simulation.add_body(tetsoup.tetrahedralize(tetsoup.sample("torus"), voxels=32, cells=8))
+simulation = tetsoup.Simulation(substeps=10000)
+simulation.add_body(tetsoup.tetrahedralize(tetsoup.sample("torus"), voxels=32, cells=30))
 print("begins", flush=True)
-while True:
-    simulation.step(1 / 60)
+try:
+    while True:
+        simulation.step(1)
+except KeyboardInterrupt:
+    then = simulation.time
+    simulation.step(0.001)
+    print(then % 1 != 0 and simulation.time == then + 0.001)
+    raise
 """
     process = subprocess.Popen(
         [sys.executable, "-c", program],
@@ -344,8 +350,9 @@ while True:
     assert process.stdout is not None and process.stdout.readline() == "begins\n"
     time.sleep(0.2)
     process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=20)
+    answer, said = process.communicate(timeout=20)
     assert said.splitlines()[-1].startswith("KeyboardInterrupt")
+    assert answer == "True\n"
 
 
 def test_it_says_what_it_is(fallen):

@@ -262,6 +262,8 @@ class Simulation:
 
         Raises:
             tetsoup.InvalidInput: if `dt` is out of range.
+            KeyboardInterrupt: on Ctrl-C. Bodies and time then are where the last whole substep has left them, and the
+                simulation can go on from there.
 
         Example:
             >>> simulation.step(1 / 60)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/parallel.h"
 #include "base/require.h"
 #include "simulate/build.h"
 #include "simulate/check.h"
@@ -101,7 +102,7 @@ void Simulation::remove_spring(std::size_t spring) {
   state_->spring(spring).stiffness = 0;
 }
 
-void Simulation::step(double dt) {
+void Simulation::step(double dt, const Progress& progress) {
   require(dt > 0 && dt <= 1, "dt", dt, "above 0 and at most 1 s");
   World& world = state_->world;
   const int substeps = count_substeps(world, dt);
@@ -109,17 +110,22 @@ void Simulation::step(double dt) {
   const int interval =
       static_cast<int>(std::ceil(std::min(longer * world.options.contact_interval, double{kMaxSubsteps})));
   prepare_substeps(world, h);
-  for (int i = 0; i < substeps; ++i) {
+  StageWatch watch(progress, "simulate");
+  int done = 0;
+  for (int i = 0; i < substeps && !watch.stopped(); ++i) {
     if (i % interval == 0)
       find_contacts(world, h * std::min(interval, substeps - i), i == 0 ? Edges::Find : Edges::Keep);
     move_freely(world, h);
     solve_springs(world, h);
     solve_contacts(world, h);
     solve_attachments(world, h);
+    done = i + 1;
+    watch.tick(static_cast<double>(done) / substeps);
   }
-  world.time += dt;
-  world.report.substeps = substeps;
+  world.time += done == substeps ? dt : done * h;
+  world.report.substeps = done;
   publish(world);
+  watch.throw_if_stopped();
 }
 
 std::size_t Simulation::body_count() const {
