@@ -27,6 +27,16 @@ def test_a_mesh_is_shown_with_how_it_was_made() -> None:
     assert data["surface"] is not None
 
 
+def test_the_page_gets_the_numbers_that_its_sentences_are_made_of() -> None:
+    mesh = tetsoup.tetrahedralize(tetsoup.sample("torus"), voxels=32, tets=300)
+    said = data_of(mesh.show().html)["report"]
+    volume = said["pseudo_volume"]
+    assert said["grid"]["voxel_size"] ** 3 * volume["inside_voxels"] == pytest.approx(volume["volume"])
+    assert {"k", "band", "automatic", "cavity_voxels", "largest_closure", "soup_covered"} <= volume.keys()
+    assert {"tet_count", "mean_edge", "thin_tets", "kept_volume"} <= said["lattice"].keys()
+    assert {"touching_mended", "parts_dropped"} <= said["lattice"]["topology"].keys()
+
+
 def test_a_notebook_gets_a_frame_that_asks_for_nothing() -> None:
     mesh = tetsoup.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
     page = mesh.show(height=400)

@@ -59,7 +59,15 @@ def _as_json(report: Report | None) -> str:
     low, high = soup.pop("box")
     soup["class"] = soup.pop("kind")
     soup["box"] = {"lo": list(low), "hi": list(high)}
-    found = {"soup": soup, "options": report.options, "seconds": report.seconds}
+    volume = report.pseudo_volume.as_dict()
+    found = {
+        "soup": soup,
+        "grid": {"voxel_size": volume["band"] / volume["band_voxels"]},
+        "pseudo_volume": volume,
+        "lattice": report.lattice.as_dict(),
+        "options": report.options,
+        "seconds": report.seconds,
+    }
     return json.dumps(found, default=str)
 
 
