@@ -187,7 +187,7 @@ TEST_F(CPipeline, models_refuse_what_they_do_not_know) {
   EXPECT_EQ(tetsoup_model_create(pipeline, "", nullptr, nullptr, &model), TETSOUP_INVALID_INPUT);
   ASSERT_EQ(tetsoup_model_create(pipeline, "ball", nullptr, nullptr, &model), TETSOUP_OK);
   EXPECT_EQ(tetsoup_model_write(model, "ball.msh", "nonsense", &json), TETSOUP_INVALID_INPUT);
-  EXPECT_TRUE(error_tells("format = nonsense"));
+  EXPECT_TRUE(error_tells("format = 'nonsense'"));
   EXPECT_EQ(tetsoup_model_write(model, "/no/such/folder/ball.msh", nullptr, &json), TETSOUP_IO_ERROR);
   EXPECT_TRUE(error_tells("/no/such/folder"));
   EXPECT_EQ(tetsoup_model_write_for_engine(model, "ball", "unreal", &json), TETSOUP_INVALID_INPUT);

@@ -161,8 +161,12 @@ TEST(TetFormats, are_told_by_extension_whatever_its_case) {
 
 TEST(TetFormats, have_names_of_their_own) {
   std::set<std::string> names;
-  for (const TetFormatInfo& info : tet_formats()) names.insert(info.name);
+  for (const TetFormatInfo& info : tet_formats()) {
+    names.insert(info.name);
+    EXPECT_EQ(tet_format_named(info.name), info.format);
+  }
   EXPECT_EQ(names.size(), tet_formats().size());
+  EXPECT_THROW(tet_format_named("gltf"), InvalidInput);
 }
 
 TEST_F(WriteTetsTest, surfaces_leave_out_vertices_that_no_triangle_uses) {

@@ -39,12 +39,7 @@ void list_samples() {
 }
 
 void check_surface_output(const std::string& path) {
-  const std::optional<std::string> any_surface = [] {
-    for (const TetFormatInfo& info : tet_formats())
-      if (info.format == TetFormat::Surface) return std::optional(info.name);
-    return std::optional<std::string>();
-  }();
-  Outputs({}).add_mesh("-o", path, any_surface);
+  Outputs({}).add_mesh("-o", path, TetFormat::Surface);
 }
 
 void run_sample(const SampleCommand& command) {

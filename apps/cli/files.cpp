@@ -99,19 +99,11 @@ void Outputs::add(std::string_view flag, const fs::path& path, std::string_view 
   add(flag, path);
 }
 
-TetFormat Outputs::add_mesh(std::string_view flag, const fs::path& path, const std::optional<std::string>& name) {
-  TetFormat format = TetFormat::Msh41;
-  if (name) {
-    const std::vector<TetFormatInfo>& known = tet_formats();
-    const auto found = std::find_if(known.begin(), known.end(), [&](const auto& info) { return info.name == *name; });
-    if (found == known.end()) throw InvalidInput(fmt::format("--format {}: there is no such format", *name));
-    format = found->format;
-    const std::string extension = lower_extension(path);
-    if (format == TetFormat::Surface && extension != ".obj" && extension != ".stl" && extension != ".ply")
-      throw IoError(fmt::format("{} {}: a surface file's name must end in .obj, .stl or .ply", flag, path.string()));
-  } else {
-    format = tet_format_of(path);
-  }
+TetFormat Outputs::add_mesh(std::string_view flag, const fs::path& path, std::optional<TetFormat> wanted) {
+  const TetFormat format = wanted ? *wanted : tet_format_of(path);
+  const std::string extension = lower_extension(path);
+  if (format == TetFormat::Surface && extension != ".obj" && extension != ".stl" && extension != ".ply")
+    throw IoError(fmt::format("{} {}: a surface file's name must end in .obj, .stl or .ply", flag, path.string()));
   for (const fs::path& file : tet_files(path, format)) add(flag, file);
   return format;
 }

@@ -35,9 +35,8 @@ class Outputs {
   /// The same for a file that must have this extension.
   void add(std::string_view flag, const std::filesystem::path& path, std::string_view extension);
 
-  /// Adds a tet mesh and what is written beside it. @return  The format: `name` as --format takes it, else by
-  /// extension.
-  TetFormat add_mesh(std::string_view flag, const std::filesystem::path& path, const std::optional<std::string>& name);
+  /// Adds a tet mesh and what is written beside it. @return  The format: the wanted one, else by extension.
+  TetFormat add_mesh(std::string_view flag, const std::filesystem::path& path, std::optional<TetFormat> wanted);
 
  private:
   std::filesystem::path input_;

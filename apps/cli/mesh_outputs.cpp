@@ -72,8 +72,10 @@ std::vector<PlannedMesh> plan_meshes(const WantedMeshes& wanted, Outputs& output
     for (const auto& file : planned.back().files) outputs.add("-o", file);
     return planned;
   }
+  std::optional<TetFormat> named;
+  if (wanted.format) named = with_flag("--format", [&] { return tet_format_named(*wanted.format); });
   for (const std::string& path : wanted.paths) {
-    const TetFormat format = outputs.add_mesh("-o", path, wanted.format);
+    const TetFormat format = outputs.add_mesh("-o", path, named);
     planned.push_back({path, format, nullptr, tet_files(path, format)});
   }
   return planned;

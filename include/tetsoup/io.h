@@ -99,6 +99,9 @@ struct TetFormatInfo {
 };
 const std::vector<TetFormatInfo>& tet_formats();
 
+/// @throws InvalidInput  listing them, if there is none of that name.
+TetFormat tet_format_named(std::string_view name);
+
 /// Format by extension: .msh is 4.1, .obj the boundary; throws IoError listing the known extensions.
 TetFormat tet_format_of(const std::filesystem::path& path);
 

@@ -18,13 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::optional<TetFormat> format_named(const std::optional<std::string>& name) {
-  if (!name) return {};
-  std::string known;
-  for (const TetFormatInfo& info : tet_formats()) {
-    if (info.name == *name) return info.format;
-    known += (known.empty() ? "'" : ", '") + info.name + "'";
-  }
-  throw InvalidInput("format = '" + *name + "', must be one of " + known);
+  return name ? std::optional(tet_format_named(*name)) : std::nullopt;
 }
 
 UpAxis axis_named(const std::string& name) {

@@ -106,7 +106,7 @@ def test_saving_where_one_cannot_leaves_nothing(cube, tmp_path):
     for path in (tmp_path / "no folder" / "x.msh", tmp_path / "x.docx", tmp_path):
         with pytest.raises(tetsoup.IoError):
             mesh.save(path)
-    with pytest.raises(ValueError, match="format = 'docx', must be one of 'msh'"):
+    with pytest.raises(ValueError, match="format = 'docx', must be one of msh, "):
         mesh.save(tmp_path / "x.msh", format="docx")
     assert list(tmp_path.iterdir()) == []
 

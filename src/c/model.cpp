@@ -27,15 +27,6 @@ Json names_json(const std::vector<std::filesystem::path>& files) {
   return names;
 }
 
-TetFormat format_named(std::string_view name) {
-  std::string known;
-  for (const TetFormatInfo& format : tet_formats()) {
-    if (format.name == name) return format.format;
-    known += (known.empty() ? "" : ", ") + format.name;
-  }
-  throw InvalidInput("format = " + std::string(name) + ", must be one of " + known);
-}
-
 }  // namespace
 
 tetsoup_status tetsoup_model_create(const tetsoup_pipeline* pipeline, const char* name, tetsoup_progress progress,
@@ -126,7 +117,7 @@ tetsoup_status tetsoup_model_write(const tetsoup_model* model, const char* path,
     const char*& out = c::given(json, "json");
     const tetsoup_model& m = c::given(model, "model");
     const std::string file = &c::given(path, "path");
-    const auto wanted = format == nullptr ? std::nullopt : std::optional(format_named(format));
+    const auto wanted = format == nullptr ? std::nullopt : std::optional(tet_format_named(format));
     out = c::keep_text(names_json(write_tets(file, whole_model(m), wanted)).dump());
   });
 }

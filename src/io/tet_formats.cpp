@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/listing.h"
 #include "io/file_names.h"
 #include "tetsoup/error.h"
 #include "tetsoup/io.h"
@@ -56,6 +57,14 @@ const std::vector<TetFormatInfo>& tet_formats() {
       {TetFormat::Surface, "surface", "Boundary triangles only (.obj, .stl, .ply)", ".obj"},
   };
   return formats;
+}
+
+TetFormat tet_format_named(std::string_view name) {
+  for (const TetFormatInfo& info : tet_formats())
+    if (info.name == name) return info.format;
+  const std::string known = listing(
+      tet_formats(), [](const TetFormatInfo& info) -> const auto& { return info.name; });
+  throw InvalidInput("format = '" + std::string(name) + "', must be one of " + known);
 }
 
 TetFormat tet_format_of(const fs::path& path) {
