@@ -1,6 +1,6 @@
 // The page: what the user does becomes settings, settings become wishes to the worker, and replies become pictures.
 import { Client } from './core/client';
-import type { Catalog, MeshResult, Reply, Report, Slice, SoupReport } from './core/protocol';
+import type { Catalog, MeshResult, PlayStart, Reply, Report, Slice, SoupReport } from './core/protocol';
 import { Play } from './play';
 import { fromAddress, kUnits, meshOptions, type Settings, Store, toAddress, type View } from './state';
 import { Theme } from './theme';
@@ -269,13 +269,13 @@ export class App {
     this.play.begin(scene);
   }
 
-  private onPlaying(start: Parameters<Play['started']>[0]): void {
+  private onPlaying(start: PlayStart): void {
     this.empty.hidden = true;
     this.viewport.setModel(true);
     this.play.started(start);
     this.stage.resize();
     this.root.dataset.state = 'playing';
-    this.panels?.report('simulation', '', [{ tone: 'plain', text: `${start.title}. Drag a body with the mouse or a finger to pull it.` }]);
+    this.panels?.report('simulation', '', words.ofPlay(start));
   }
 
   private stopPlaying(): void {

@@ -38,7 +38,8 @@ export class Play {
   begin(scene: string | null): void {
     this.scene = scene;
     this.viewport.setStatus(scene ? 'Meshing the scene' : 'Preparing the body', true);
-    this.client.ask({ type: 'play', wish: { scene, up: this.settings().up, young: scene ? 0 : this.settings().young } });
+    this.client.ask({ type: 'play', wish: { scene, up: this.settings().up, young: scene ? 0 : this.settings().young,
+      drawnBy: this.stage.drawnBy } });
   }
 
   started(start: PlayStart): void {

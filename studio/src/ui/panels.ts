@@ -34,7 +34,6 @@ export class Panels {
   private readonly controls: Control<never>[] = [];
   private readonly gizmoButtons = new Map<string, HTMLButtonElement>();
   private readonly meshOnly: HTMLButtonElement[] = [];
-  readonly playStatus = el('p', { class: 'hint', role: 'status', hidden: true });
 
   constructor(private readonly store: Store, private readonly actions: PanelActions, catalog: Catalog) {
     for (const name of Object.keys(kTitles) as PanelName[]) this.addPanel(name);
@@ -173,7 +172,7 @@ export class Panels {
     this.bindings.push((s) => (likeness.textContent = `${pascals(10 ** s.stiffness)}: ${likeWhat(10 ** s.stiffness)}`));
     const drop = this.need(el('button', { type: 'button', class: 'primary', id: 'drop', onclick: () => this.actions.play(null) }, 'Drop it'));
     const robots = el('button', { type: 'button', id: 'robots', onclick: () => this.actions.play('robots-on-tree') }, 'Robots on a tree');
-    this.put('simulation', el('div', { class: 'row' }, drop, robots), this.bind(stiffness, (s) => s.stiffness), likeness, this.playStatus);
+    this.put('simulation', el('div', { class: 'row' }, drop, robots), this.bind(stiffness, (s) => s.stiffness), likeness);
   }
 
   private need(button: HTMLButtonElement): HTMLButtonElement {

@@ -1,6 +1,6 @@
 // Reports in plain words. Every sentence says what is, and where something can be done about it, what.
 import { kUnits, type Settings } from '../state';
-import type { EmbedReport, Frame, Report, SoupReport } from '../core/protocol';
+import type { EmbedReport, PlayStart, Report, SoupReport } from '../core/protocol';
 
 export type Tone = 'plain' | 'good' | 'watch';
 export interface Sentence {
@@ -94,8 +94,12 @@ export function ofEmbedding(r: EmbedReport, unit: Unit): Sentence[] {
   return said;
 }
 
-export function ofPlay(frame: Frame, rate: number, drawing: number, simulating: number): string {
-  return `${frame.time.toFixed(1)} s · ${Math.round(rate)} frames/s · simulating ${milliseconds(simulating)} · drawing ${milliseconds(drawing)} a frame`;
+export function ofPlay(start: PlayStart): Sentence[] {
+  const said = [say(`${start.title}. Drag a body with the mouse or a finger to pull it.`)];
+  const drawn = [...start.bodies, ...start.obstacles].reduce((sum, skin) => sum + skin.triangles.length / 3, 0);
+  if (drawn < start.triangleCount)
+    said.push(say(`No graphics card draws for this page, so ${drawn.toLocaleString('en')} of ${count(start.triangleCount, 'triangle')} are drawn. Nothing else changes.`));
+  return said;
 }
 
 export function pascals(young: number): string {

@@ -59,6 +59,7 @@ export class PlayView extends Group {
     this.obstacles = start.obstacles.map((obstacle) => {
       const layer = new SurfaceLayer();
       layer.set(obstacle.vertices, obstacle.triangles);
+      layer.setOutward(obstacle.outward);
       this.add(layer);
       return layer;
     });
@@ -68,7 +69,10 @@ export class PlayView extends Group {
   }
 
   empty(): void {
-    for (const child of [...this.obstacles, ...this.bodies.flatMap((b) => [b.surface, b.tets])]) child.removeFromParent();
+    for (const layer of [...this.obstacles, ...this.bodies.flatMap((b) => [b.surface, b.tets])]) {
+      layer.removeFromParent();
+      layer.release();
+    }
     this.bodies = [];
     this.obstacles = [];
     this.visible = false;
@@ -88,6 +92,7 @@ export class PlayView extends Group {
     if (this.stage.scene.fog) this.stage.scene.fog.color.set(palette.background);
     this.rope.material.color.set(palette.accent);
     this.grid?.removeFromParent();
+    this.grid?.dispose();
     this.grid = new GridHelper(2 * kGround, (2 * kGround) / kLineEvery, palette.grid, palette.grid);
     this.grid.rotation.x = Math.PI / 2;
     this.add(this.grid);
@@ -98,7 +103,7 @@ export class PlayView extends Group {
     this.bodies.forEach((b) => {
       b.surface.visible = !tets;
       b.tets.visible = tets;
-      b.tets.setLook({ edges, faces: true, quality });
+      b.tets.setLook({ edges, quality });
       if (tets && b.positions.length) b.tets.move(b.positions);
     });
     this.stage.draw();
@@ -111,6 +116,7 @@ export class PlayView extends Group {
       const shape = body.surface.userData.shape as PlayStart['bodies'][number];
       if (!body.positions.length) {
         body.surface.set(moved.vertices, shape.triangles);
+        body.surface.setOutward(shape.outward);
         body.tets.set({ vertices: moved.positions, tets: shape.tets, angles: null });
       }
       body.positions = moved.positions;
@@ -184,6 +190,7 @@ export class PlayView extends Group {
   private pick(x: number, y: number): { body: number; vertex: number; point: Vector3 } | null {
     const meshes = this.bodies.map((b) => b.surface.mesh);
     // Hidden surfaces can be pulled as well: the tets are drawn in their place.
+    meshes.forEach((mesh) => mesh.geometry.computeBoundingSphere());
     const hit = this.stage.rayAt(x, y).intersectObjects(meshes, false)[0];
     if (!hit) return null;
     const body = meshes.indexOf(hit.object as (typeof meshes)[number]);

@@ -26,6 +26,7 @@ export class Stage {
   readonly camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 1000);
   readonly controls: OrbitControls;
   readonly renderer: WebGLRenderer;
+  readonly drawnBy = drawsInSoftware() ? 'processor' : 'gpu';
   palette: Palette = kLight;
   /** From the call to the finished picture, as the last one that was waited for took. */
   drawMilliseconds = 0;
@@ -35,7 +36,7 @@ export class Stage {
 
   constructor(private readonly host: HTMLElement, label: string) {
     // Where a processor draws, smooth edges cost more than all the rest.
-    this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware() });
+    this.renderer = new WebGLRenderer({ antialias: this.drawnBy === 'gpu' });
     this.renderer.localClippingEnabled = true;
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
