@@ -2,11 +2,15 @@
 import { Client } from './core/client';
 import type { Catalog, MeshResult, PlayStart, Reply, Report, Slice, SoupReport } from './core/protocol';
 import { Play } from './play';
-import { fromAddress, kUnits, meshOptions, type Settings, Store, toAddress, type View } from './state';
+import { Source } from './source';
+import { fromAddress, kUnits, meshOptions, type Settings, Store, toAddress } from './state';
 import { Theme } from './theme';
-import { el, icon } from './ui/dom';
+import { el } from './ui/dom';
 import { acceptDrops, emptyState, kAccepted } from './ui/empty';
 import { download, downloadFiles, ExportDialog, type ExportChoice } from './ui/export_dialog';
+import { Header } from './ui/header';
+import { listenToKeys } from './ui/keys';
+import { makeNotice } from './ui/notice';
 import { Panels } from './ui/panels';
 import { Viewport } from './ui/viewport';
 import * as words from './ui/words';
@@ -15,8 +19,6 @@ import { Stage } from './view/stage';
 
 const kUpAxis = { x: 0, y: 1, z: 2 } as const;
 const kMaterial = { density: 1000, young: 1e5, poisson: 0.4 };
-/** Formats whose files have y up by custom. */
-const kYUp = /\.(obj|gltf|glb)$/i;
 
 export class App {
   private readonly store = new Store(fromAddress(location.hash));
@@ -26,6 +28,7 @@ export class App {
   private readonly play: Play;
   private readonly theme: Theme;
   private readonly client: Client;
+  private readonly source: Source;
   private panels: Panels | null = null;
   private exporter: ExportDialog | null = null;
   private empty: HTMLElement;
@@ -34,29 +37,33 @@ export class App {
   private slice: Slice | null = null;
   private meshDone = false;
   private meshJob = 0;
-  private soupJob = 0;
   private sliceJob = 0;
   private wishedAt = 0;
   private exportStem = '';
   private readonly picker = el('input', { type: 'file', accept: kAccepted, hidden: true, 'aria-label': 'Model file', onchange: () => this.pickFile() });
-  private readonly notice = el('div', { class: 'notice', role: 'alert', hidden: true });
-  private readonly name = el('span', { class: 'model-name' });
-  private readonly undo = el('button', { type: 'button', class: 'icon', title: 'Undo (Ctrl+Z)', 'aria-label': 'Undo', disabled: true, onclick: () => this.store.undo() }, icon('undo'));
-  private readonly redo = el('button', { type: 'button', class: 'icon', title: 'Redo (Ctrl+Y)', 'aria-label': 'Redo', disabled: true, onclick: () => this.store.redo() }, icon('redo'));
-  private readonly exportButton = el('button', { type: 'button', class: 'primary', id: 'export', disabled: true, onclick: () => this.openExport() }, icon('save'), 'Export');
+  private readonly notice = makeNotice();
+  private readonly header: Header;
 
   constructor(private readonly root: HTMLElement) {
     this.viewport = new Viewport({
       view: (view) => this.store.set({ view }), look: () => this.showLook(), slice: () => this.askSlice(), fit: () => this.fit(),
       pause: () => this.play.pause(), reset: () => this.play.reset(), stop: () => this.stopPlaying(),
     });
+    this.header = new Header({
+      open: () => this.picker.click(), undo: () => this.store.undo(), redo: () => this.store.redo(),
+      copyLink: () => void this.copyLink(), toggleTheme: () => this.theme.toggle(), export: () => this.openExport(),
+    });
     this.empty = emptyState(null, () => this.picker.click(), () => undefined, () => undefined);
-    this.viewport.element.append(this.empty, this.notice);
-    this.root.append(this.header(), el('aside', { 'aria-label': 'Settings' }), this.viewport.element, this.picker);
+    this.viewport.element.append(this.empty, this.notice.element);
+    this.root.append(this.header.element, el('aside', { 'aria-label': 'Settings' }), this.viewport.element, this.picker);
     this.stage = new Stage(this.viewport.canvas, 'The model in 3D. Arrow keys turn it, plus and minus zoom.');
     this.view = new ModelView(this.stage,
       (translate, rotate) => this.store.set({ translate, rotate }), () => this.store.endStep());
     this.client = new Client((reply) => this.onReply(reply));
+    this.source = new Source(this.client, this.store, {
+      loading: (text) => this.viewport.setStatus(text, true),
+      nothing: () => this.showNothing(),
+    });
     this.play = new Play(this.client, this.stage, this.viewport,
       () => ({ up: kUpAxis[this.store.now.up], young: 10 ** this.store.now.stiffness }), () => this.showLook(),
       ({ frames, framesPerSecond, simulate, draw }) => Object.assign(this.root.dataset, { frames, fps: framesPerSecond.toFixed(1), simulate: simulate.toFixed(1), draw: draw.toFixed(1) }));
@@ -66,35 +73,15 @@ export class App {
     this.listen();
   }
 
-  private header(): HTMLElement {
-    return el('header', {}, el('h1', {}, 'tetsoup ', el('small', {}, 'studio')),
-      el('button', { type: 'button', 'aria-label': 'Open a model', onclick: () => this.picker.click() }, icon('open'), el('span', { class: 'wide' }, 'Open')),
-      this.name, el('span', { class: 'gap' }), this.undo, this.redo,
-      el('button', { type: 'button', class: 'icon', title: 'Copy a link to this mesh', 'aria-label': 'Copy a link to this mesh', onclick: () => void this.copyLink() }, icon('link')),
-      el('button', { type: 'button', class: 'icon', title: 'Light or dark', 'aria-label': 'Switch between light and dark', onclick: () => this.theme.toggle() }, icon('theme')),
-      this.exportButton);
-  }
-
   private listen(): void {
-    acceptDrops((file) => void this.openFile(file));
+    acceptDrops((file) => this.source.openFile(file));
     addEventListener('hashchange', () => {
       const wanted = { ...fromAddress(location.hash), file: this.store.now.file };
       if (toAddress(wanted) !== toAddress(this.store.now)) this.store.set(wanted);
     });
-    addEventListener('keydown', (event) => {
-      const typing = event.target instanceof HTMLInputElement && event.target.type !== 'range';
-      if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z' && !typing) {
-        event.preventDefault();
-        if (event.shiftKey) this.store.redo();
-        else this.store.undo();
-      } else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'y' && !typing) {
-        event.preventDefault();
-        this.store.redo();
-      } else if (!typing && !event.ctrlKey && !event.metaKey && !event.altKey && !(event.target instanceof HTMLSelectElement)) {
-        if (event.key.toLowerCase() === 'f') this.fit();
-        const view = (['soup', 'votes', 'lattice', 'tets', 'surface'] as View[])[Number(event.key) - 1];
-        if (view && this.soup && !this.play.on) this.store.set({ view });
-      }
+    listenToKeys({
+      undo: () => this.store.undo(), redo: () => this.store.redo(), fit: () => this.fit(),
+      view: (view) => this.soup && !this.play.on && this.store.set({ view }),
     });
   }
 
@@ -103,8 +90,8 @@ export class App {
   private onReply(reply: Reply): void {
     switch (reply.type) {
       case 'ready': return this.onReady(reply.catalog);
-      case 'fatal': return this.complain(`The mesher could not be started: ${reply.message}. It needs a browser from 2022 or later, and a page served over http.`);
-      case 'soup': return this.onSoup(reply.surface, reply.report);
+      case 'fatal': return this.notice.complain(`The mesher could not be started: ${reply.message}. It needs a browser from 2022 or later, and a page served over http.`);
+      case 'soup': return this.source.isWanted(reply.job) ? this.onSoup(reply.surface, reply.report) : undefined;
       case 'mesh': return reply.job === this.meshJob ? this.onMesh(reply.result, reply.done) : undefined;
       case 'slice': return reply.job === this.sliceJob ? this.showSlice(reply.slice) : undefined;
       case 'progress': return this.viewport.setStatus(`${words.stageName(reply.stage)} ${Math.round(100 * reply.fraction)} %`, true);
@@ -121,11 +108,11 @@ export class App {
 
   private onReady(catalog: Catalog): void {
     this.panels = new Panels(this.store, {
-      open: () => this.picker.click(), sample: (name) => this.openSample(name), gizmo: (mode) => this.view.showFrame(mode),
+      open: () => this.picker.click(), sample: (name) => this.source.openSample(name), gizmo: (mode) => this.view.showFrame(mode),
       embed: () => this.client.ask({ type: 'embed' }), showSurface: () => this.store.set({ view: 'surface' }), play: (scene) => this.startPlaying(scene),
     }, catalog);
     this.root.querySelector('aside')?.replaceWith(this.panels.element);
-    const empty = emptyState(catalog, () => this.picker.click(), (name) => this.openSample(name), () => this.startPlaying('robots-on-tree'));
+    const empty = emptyState(catalog, () => this.picker.click(), (name) => this.source.openSample(name), () => this.startPlaying('robots-on-tree'));
     this.empty.replaceWith(empty);
     this.empty = empty;
     this.exporter = new ExportDialog(catalog, (choice) => this.export(choice), () => void this.savePicture());
@@ -134,19 +121,20 @@ export class App {
     this.viewport.setView(this.store.now.view);
     const served = new URLSearchParams(location.search).get('model');
     if (served) void this.openServed(served);
-    else if (this.store.now.sample) this.loadSample();
+    else if (this.store.now.sample) void this.source.load();
   }
 
   /** The model that `tetsoup studio FILE` serves beside the page. */
   private async openServed(name: string): Promise<void> {
     const answer = await fetch(`model/${encodeURIComponent(name)}`);
-    if (answer.ok) await this.openFile(new File([await answer.arrayBuffer()], name));
-    else this.complain(`${name} is not there any more. Open a file, or choose a sample.`);
+    if (answer.ok) this.source.openFile(new File([await answer.arrayBuffer()], name));
+    else this.notice.complain(`${name} is not there any more. Open a file, or choose a sample.`);
   }
 
   private onSoup(surface: { vertices: Float32Array; triangles: Uint32Array }, report: SoupReport): void {
     this.stopPlaying();
     this.soup = report;
+    this.source.loaded();
     this.report = null;
     this.meshDone = false;
     this.root.dataset.state = 'soup';
@@ -154,7 +142,7 @@ export class App {
     this.viewport.setModel(true);
     this.view.setSoup(surface, report.box);
     const { now } = this.store;
-    this.name.textContent = now.file || `${now.sample}${now.damage ? `, ${now.damage} % damaged` : ''}`;
+    this.header.setModel(now.file || `${now.sample}${now.damage ? `, ${now.damage} % damaged` : ''}`);
     this.panels?.report('soup', words.count(report.used_triangles, 'triangle'), words.ofSoup(report, now.unit));
     this.panels?.report('embedding', '', []);
     this.stage.setUp(kUpAxis[now.up]);
@@ -164,7 +152,7 @@ export class App {
     this.fit();
     this.updateButtons();
     if (report.class !== 'empty') this.askMesh();
-    else this.complain('There is no usable triangle in this file. Choose another one, or a sample.');
+    else this.notice.complain('There is no usable triangle in this file. Choose another one, or a sample.');
   }
 
   private onMesh(result: MeshResult, done: boolean): void {
@@ -188,19 +176,21 @@ export class App {
   private onError(job: number, message: string, status: number): void {
     const text = words.ofError(message, status);
     if (this.exporter?.element.open) return this.exporter.failed(text);
-    this.complain(text);
+    if (this.source.isWanted(job)) this.store.takeBack();
+    this.notice.complain(text);
     this.viewport.setStatus('');
     this.root.dataset.state = 'error';
-    if (job === this.soupJob && !this.soup) this.store.set({ sample: '', file: '' });
+    // A file that could not be read has cancelled the mesh of what is still there.
+    if (this.source.isWanted(job) && !this.meshDone) this.askMesh();
   }
 
   // --- what the user does ----------------------------------------------------------------------------------------------
 
   private onSettings(now: Settings, before: Settings): void {
+    this.notice.hide();
     history.replaceState(null, '', toAddress(now) ? `#${toAddress(now)}` : location.pathname + location.search);
     this.panels?.show(now);
-    this.undo.disabled = !this.store.canUndo;
-    this.redo.disabled = !this.store.canRedo;
+    this.header.setHistory(this.store.canUndo, this.store.canRedo);
     const differs = (...keys: (keyof Settings)[]) => keys.some((key) => String(now[key]) !== String(before[key]));
     if (differs('view')) {
       this.viewport.setView(now.view);
@@ -213,7 +203,7 @@ export class App {
     }
     if (differs('stiffness')) this.play.setStiffness(10 ** now.stiffness);
     if (differs('unit') && this.soup) this.showReports();
-    if (now.sample && differs('sample', 'damage')) return this.loadSample();
+    if (differs('sample', 'damage', 'file')) return void this.source.load();
     if (JSON.stringify(meshOptions(now)) !== JSON.stringify(meshOptions(before))) {
       this.view.placeFrame(now.translate, now.rotate);
       this.stage.draw();
@@ -221,36 +211,31 @@ export class App {
     }
   }
 
-  private openSample(name: string): void {
-    this.store.set({ sample: name, file: '', up: 'z', unit: name === 'torus' ? 'cm' : 'm', damage: 0 });
-    this.store.endStep();
-  }
-
-  private loadSample(): void {
-    const { sample, damage } = this.store.now;
-    this.viewport.setStatus('Making the sample', true);
-    this.soupJob = this.client.ask({ type: 'load', source: { kind: 'sample', name: sample, damage: damage / 100, seed: 1 } });
-  }
-
   private pickFile(): void {
     const file = this.picker.files?.[0];
     this.picker.value = '';
-    if (file) void this.openFile(file);
+    if (file) this.source.openFile(file);
   }
 
-  private async openFile(file: File): Promise<void> {
-    this.notice.hidden = true;
-    this.viewport.setStatus(`Reading ${file.name}`, true);
-    const bytes = await file.arrayBuffer();
-    this.store.set({ file: file.name, sample: '', damage: 0, up: kYUp.test(file.name) ? 'y' : 'z' });
-    this.store.endStep();
-    this.soupJob = this.client.ask({ type: 'load', source: { kind: 'file', name: file.name, bytes } }, [bytes]);
+  /** Back to the page without a model. */
+  private showNothing(): void {
+    this.stopPlaying();
+    this.soup = this.report = this.slice = null;
+    this.meshDone = false;
+    this.meshJob = 0;
+    this.header.setModel('');
+    this.empty.hidden = false;
+    this.viewport.setModel(false);
+    this.viewport.setStatus('');
+    this.panels?.clear();
+    this.root.dataset.state = '';
+    this.showLook();
+    this.updateButtons();
   }
 
   private askMesh(): void {
     if (!this.soup || this.soup.class === 'empty') return;
     this.stopPlaying();
-    this.notice.hidden = true;
     this.meshDone = false;
     this.wishedAt = performance.now();
     this.root.dataset.state = 'busy';
@@ -264,7 +249,7 @@ export class App {
   }
 
   private startPlaying(scene: string | null): void {
-    this.notice.hidden = true;
+    this.notice.hide();
     this.root.dataset.state = 'preparing';
     this.play.begin(scene);
   }
@@ -310,9 +295,9 @@ export class App {
   private async copyLink(): Promise<void> {
     try {
       await navigator.clipboard.writeText(location.href);
-      this.tell(this.store.now.file ? 'Link copied. It holds the settings; whoever opens it drops the file themselves.' : 'Link copied. It makes the same mesh, to the bit.');
+      this.notice.tell(this.store.now.file ? 'Link copied. It holds the settings; whoever opens it drops the file themselves.' : 'Link copied. It makes the same mesh, to the bit.');
     } catch {
-      this.tell('Copy the address of this page: it holds all settings.');
+      this.notice.tell('Copy the address of this page: it holds all settings.');
     }
   }
 
@@ -366,20 +351,6 @@ export class App {
   }
 
   private updateButtons(): void {
-    this.exportButton.disabled = !this.soup;
-    this.panels?.setReady(this.soup !== null, this.meshDone && (this.report?.quality.tet_count ?? 0) > 0);
-  }
-
-  private complain(text: string): void {
-    this.showNotice(text, true);
-  }
-  private tell(text: string): void {
-    this.showNotice(text, false);
-  }
-  private showNotice(text: string, watch: boolean): void {
-    this.notice.className = watch ? 'notice watch' : 'notice';
-    this.notice.replaceChildren(el('p', {}, text),
-      el('button', { type: 'button', 'aria-label': 'Close', onclick: () => (this.notice.hidden = true) }, icon('close')));
-    this.notice.hidden = false;
+    this.panels?.setReady(this.meshDone && (this.report?.quality.tet_count ?? 0) > 0);
   }
 }

@@ -181,11 +181,14 @@ export class Panels {
     return button;
   }
 
-  /** Whether there is a model to work on, and whether its mesh is finished. */
-  setReady(model: boolean, mesh: boolean): void {
+  /** Whether there is a finished mesh to work on. */
+  setReady(mesh: boolean): void {
     this.meshOnly.forEach((button) => (button.disabled = !mesh));
     this.gizmoButtons.forEach((button) => (button.disabled = !mesh));
-    if (!model) this.panels.forEach((panel) => panel.report.replaceChildren());
+  }
+
+  clear(): void {
+    for (const name of this.panels.keys()) this.report(name, '', []);
   }
 
   show(s: Settings): void {
