@@ -62,11 +62,13 @@ export class App {
     this.client = new Client((reply) => this.onReply(reply));
     this.source = new Source(this.client, this.store, {
       loading: (text) => this.viewport.setStatus(text, true),
+      lost: (file) => this.onLost(file),
       nothing: () => this.showNothing(),
     });
     this.play = new Play(this.client, this.stage, this.viewport,
       () => ({ up: kUpAxis[this.store.now.up], young: 10 ** this.store.now.stiffness }), () => this.showLook(),
-      ({ frames, framesPerSecond, simulate, draw }) => Object.assign(this.root.dataset, { frames, fps: framesPerSecond.toFixed(1), simulate: simulate.toFixed(1), draw: draw.toFixed(1) }));
+      ({ frames, framesPerSecond, simulate, draw, box }) => Object.assign(this.root.dataset, { frames, fps: framesPerSecond.toFixed(1),
+        simulate: simulate.toFixed(1), draw: draw.toFixed(1), box: box.map((x) => x.toFixed(3)).join(' ') }));
     this.theme = new Theme((dark) => this.paint(dark));
     this.theme.apply();
     this.store.onChange((now, before) => this.onSettings(now, before));
@@ -176,12 +178,22 @@ export class App {
   private onError(job: number, message: string, status: number): void {
     const text = words.ofError(message, status);
     if (this.exporter?.element.open) return this.exporter.failed(text);
-    if (this.source.isWanted(job)) this.store.takeBack();
+    const wasSource = this.source.isWanted(job);
+    if (wasSource) this.store.takeBack();
+    this.fail(text);
+    // A file that could not be read has cancelled the mesh of what is still there.
+    if (wasSource && !this.meshDone) this.askMesh();
+  }
+
+  private onLost(file: string): void {
+    this.store.takeBack();
+    this.fail(`${file} cannot be read: it is not there any more, or not a file. Open it again.`);
+  }
+
+  private fail(text: string): void {
     this.notice.complain(text);
     this.viewport.setStatus('');
     this.root.dataset.state = 'error';
-    // A file that could not be read has cancelled the mesh of what is still there.
-    if (this.source.isWanted(job) && !this.meshDone) this.askMesh();
   }
 
   // --- what the user does ----------------------------------------------------------------------------------------------

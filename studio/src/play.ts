@@ -14,13 +14,15 @@ export interface PlayStats {
   framesPerSecond: number;
   simulate: number;
   draw: number;
+  /** Around the first body: least and greatest x, y, z, in metres. */
+  box: number[];
 }
 
 export class Play {
   readonly view: PlayView;
   on = false;
   paused = false;
-  readonly stats: PlayStats = { frames: 0, framesPerSecond: 0, simulate: 0, draw: 0 };
+  readonly stats: PlayStats = { frames: 0, framesPerSecond: 0, simulate: 0, draw: 0, box: [] };
   private scene: string | null = null;
   private arrivals: { at: number; simulate: number; draw: number }[] = [];
   private tetCount = 0;
@@ -71,6 +73,7 @@ export class Play {
     stats.frames += 1;
     stats.simulate = mean('simulate');
     stats.draw = mean('draw');
+    stats.box = this.view.boxOfFirst();
     const time = arrivals[arrivals.length - 1].at - arrivals[0].at;
     stats.framesPerSecond = time > 0 ? (1000 * (arrivals.length - 1)) / time : 0;
     this.noted(stats);

@@ -17,7 +17,7 @@ export class Source {
   private readonly files = new Map<string, File>();
 
   constructor(private readonly client: Client, private readonly store: Store,
-              private readonly actions: { loading(text: string): void; nothing(): void }) {}
+              private readonly actions: { loading(text: string): void; lost(file: string): void; nothing(): void }) {}
 
   openSample(name: string): void {
     this.store.set({ sample: name, file: '', up: 'z', unit: name === 'torus' ? 'cm' : 'm', damage: 0 });
@@ -49,9 +49,11 @@ export class Source {
       this.job = this.client.ask({ type: 'load', source: { kind: 'sample', name: sample, damage: damage / 100, seed: 1 } });
       return;
     }
-    const bytes = await this.files.get(file)?.arrayBuffer();
-    if (bytes && nameOf(this.store.now) === wanted)
-      this.job = this.client.ask({ type: 'load', source: { kind: 'file', name: file, bytes } }, [bytes]);
+    // Files may be gone by now, and folders can be dropped like files.
+    const bytes = await this.files.get(file)?.arrayBuffer().catch(() => null);
+    if (nameOf(this.store.now) !== wanted) return;
+    if (!bytes) return this.actions.lost(file);
+    this.job = this.client.ask({ type: 'load', source: { kind: 'file', name: file, bytes } }, [bytes]);
   }
 
   /** Whether a job was the one that brought what is wanted now. */

@@ -43,6 +43,8 @@ export class Panels {
     this.fillSmoothing();
     this.fillEmbedding();
     this.fillSimulation();
+    this.element.append(el('p', { class: 'about' }, `tetsoup ${catalog.version} · `,
+      el('a', { href: 'licenses.txt', target: '_blank' }, 'Licences')));
     this.show(store.now);
   }
 

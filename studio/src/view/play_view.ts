@@ -132,6 +132,11 @@ export class PlayView extends Group {
     this.stage.draw();
   }
 
+  boxOfFirst(): number[] {
+    const box = new Box3().setFromArray(this.bodies[0]?.positions ?? []);
+    return [...box.min.toArray(), ...box.max.toArray()];
+  }
+
   fit(): void {
     const box = new Box3();
     this.bodies.forEach((b) => box.union(new Box3().setFromArray(b.positions)));

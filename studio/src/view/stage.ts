@@ -14,7 +14,10 @@ const kLongestDraw = 2000;
 
 function drawsInSoftware(): boolean {
   const gl = document.createElement('canvas').getContext('webgl2');
-  const name = String(gl?.getParameter(gl.RENDERER) ?? '');
+  let name = String(gl?.getParameter(gl.RENDERER) ?? '');
+  // Who draws is said by an extension only in browsers of one family; the others deprecate it.
+  const info = name === 'WebKit WebGL' ? gl?.getExtension('WEBGL_debug_renderer_info') : null;
+  if (info) name = String(gl?.getParameter(info.UNMASKED_RENDERER_WEBGL));
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
