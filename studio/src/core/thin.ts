@@ -7,7 +7,7 @@ const kMostError = 0.05;
 export async function thin(vertices: Float32Array, triangles: Uint32Array, most: number): Promise<Uint32Array> {
   if (triangles.length <= 3 * most) return triangles;
   await MeshoptSimplifier.ready;
-  return MeshoptSimplifier.simplify(triangles, vertices, 3, 3 * most, kMostError, ['Prune'])[0];
+  return MeshoptSimplifier.simplify(triangles, vertices, 3, 3 * most, kMostError, ['LockBorder'])[0];
 }
 
 /** Whether no back of a triangle is ever seen from outside: every part is closed, and counter-clockwise from there. */
