@@ -40,6 +40,8 @@ export class App {
   private sliceJob = 0;
   private wishedAt = 0;
   private exportStem = '';
+  /** The status line of the mesh that is shown. */
+  private finished = '';
   private readonly picker = el('input', { type: 'file', accept: kAccepted, hidden: true, 'aria-label': 'Model file', onchange: () => this.pickFile() });
   private readonly notice = makeNotice();
   private readonly header: Header;
@@ -97,8 +99,11 @@ export class App {
       case 'mesh': return reply.job === this.meshJob ? this.onMesh(reply.result, reply.done) : undefined;
       case 'slice': return reply.job === this.sliceJob ? this.showSlice(reply.slice) : undefined;
       case 'progress': return this.viewport.setStatus(`${words.stageName(reply.stage)} ${Math.round(100 * reply.fraction)} %`, true);
-      case 'embed': return this.panels?.report('embedding', '', words.ofEmbedding(reply.report, this.store.now.unit));
+      case 'embed':
+        this.viewport.setStatus(this.finished);
+        return this.panels?.report('embedding', '', words.ofEmbedding(reply.report, this.store.now.unit));
       case 'files':
+        this.viewport.setStatus(this.finished);
         downloadFiles(this.exportStem, reply.files);
         return this.exporter?.done(reply.files, reply.usage);
       case 'playing': return this.onPlaying(reply.start);
@@ -144,7 +149,7 @@ export class App {
     this.viewport.setModel(true);
     this.view.setSoup(surface, report.box);
     const { now } = this.store;
-    this.header.setModel(now.file || `${now.sample}${now.damage ? `, ${now.damage} % damaged` : ''}`);
+    this.header.setModel(now.file || `${words.title(now.sample)}${now.damage ? `, ${now.damage} % damaged` : ''}`);
     this.panels?.report('soup', words.count(report.used_triangles, 'triangle'), words.ofSoup(report, now.unit));
     this.panels?.report('embedding', '', []);
     this.stage.setUp(kUpAxis[now.up]);
@@ -168,7 +173,8 @@ export class App {
     this.updateButtons();
     this.stage.onDrawn(() => {
       const time = performance.now() - this.wishedAt;
-      this.viewport.setStatus(done ? `${words.count(result.report.quality.tet_count, 'tet')} in ${words.milliseconds(time)}` : 'Coarse answer, refining', !done);
+      this.finished = done ? `${words.count(result.report.quality.tet_count, 'tet')} in ${words.milliseconds(time)}` : '';
+      this.viewport.setStatus(this.finished || 'Coarse answer, refining', !done);
       this.viewport.status.title = Object.entries(result.report.seconds).map(([stage, s]) => `${words.stageName(stage)}: ${words.milliseconds(1000 * s)}`).join('\n');
       Object.assign(this.root.dataset, { state: done ? 'done' : 'coarse', tets: result.report.quality.tet_count, job: this.meshJob,
         ms: time.toFixed(1), core: result.milliseconds.toFixed(1), seconds: JSON.stringify(result.report.seconds) });
@@ -279,6 +285,7 @@ export class App {
     if (!this.play.on) return;
     this.play.stop();
     this.panels?.report('simulation', '', []);
+    this.viewport.setStatus(this.meshDone ? this.finished : '');
     this.root.dataset.state = this.meshDone ? 'done' : '';
     if (!this.soup) {
       this.empty.hidden = false;

@@ -25,7 +25,6 @@ export class Play {
   readonly stats: PlayStats = { frames: 0, framesPerSecond: 0, simulate: 0, draw: 0, box: [] };
   private scene: string | null = null;
   private arrivals: { at: number; simulate: number; draw: number }[] = [];
-  private tetCount = 0;
 
   constructor(private readonly client: Client, private readonly stage: Stage, private readonly viewport: Viewport,
               private readonly settings: () => { up: number; young: number }, private readonly changed: () => void,
@@ -49,7 +48,6 @@ export class Play {
     this.paused = false;
     this.arrivals = [];
     this.stats.frames = 0;
-    this.tetCount = start.tetCount;
     this.view.start(start);
     this.viewport.setPlaying(true);
     this.viewport.setPaused(false);
@@ -78,8 +76,7 @@ export class Play {
     stats.framesPerSecond = time > 0 ? (1000 * (arrivals.length - 1)) / time : 0;
     this.noted(stats);
     if (stats.frames % 6 !== 1) return;
-    this.viewport.setStatus(`${Math.round(stats.framesPerSecond)} frames/s · ${this.tetCount.toLocaleString('en')} tets · `
-      + `simulating ${milliseconds(stats.simulate)}, drawing ${milliseconds(stats.draw)}`);
+    this.viewport.setStatus(`${Math.round(stats.framesPerSecond)} frames/s · simulating ${milliseconds(stats.simulate)}, drawing ${milliseconds(stats.draw)}`);
   }
 
   pause(): void {
@@ -106,7 +103,6 @@ export class Play {
     this.client.send({ type: 'stop' });
     this.view.empty();
     this.viewport.setPlaying(false);
-    this.viewport.setStatus('');
     this.changed();
   }
 }

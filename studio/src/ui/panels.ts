@@ -3,7 +3,7 @@ import type { Catalog } from '../core/protocol';
 import { kUnits, type Settings, type Store } from '../state';
 import { choice, type Control, select, slider, toggle } from './controls';
 import { el } from './dom';
-import { likeWhat, pascals, type Sentence } from './words';
+import { likeWhat, pascals, type Sentence, title } from './words';
 
 export type PanelName = 'soup' | 'volume' | 'lattice' | 'smoothing' | 'embedding' | 'simulation';
 
@@ -202,8 +202,4 @@ export class Panels {
     panel.brief.textContent = brief;
     panel.report.replaceChildren(...sentences.map((s) => el('li', { class: s.tone }, s.text)));
   }
-}
-
-function title(name: string): string {
-  return name.charAt(0).toUpperCase() + name.slice(1);
 }

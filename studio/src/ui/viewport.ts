@@ -31,7 +31,7 @@ export class Viewport {
   private readonly views: Control<View>;
   private readonly viewBar: HTMLElement;
   private readonly playBar: HTMLElement;
-  readonly pauseButton: HTMLButtonElement;
+  private readonly pauseButton: HTMLButtonElement;
   private readonly cutTool: HTMLElement;
   private readonly clipTool: HTMLElement;
   private readonly clipRows: HTMLElement;
@@ -42,16 +42,17 @@ export class Viewport {
     this.views = choice({ id: 'view', label: 'View', hint: 'What is shown; also keys 1 to 5.', choices: views, change: (view) => actions.view(view) });
     this.viewBar = strip(this.views.element);
     const fit = el('button', { type: 'button', class: 'icon', title: 'Fit to view (F)', 'aria-label': 'Fit to view', onclick: () => actions.fit() }, icon('fit'));
-    this.pauseButton = el('button', { type: 'button', id: 'pause', onclick: () => actions.pause() }, icon('pause'), 'Pause');
+    this.pauseButton = el('button', { type: 'button', id: 'pause', onclick: () => actions.pause() });
+    this.setPaused(false);
     const shown = choice({ id: 'play-view', label: 'Shown while playing', hint: '', choices: [['surface', 'Surface'], ['tets', 'Tets']],
       change: (what: string) => {
         this.playTets = what === 'tets';
         actions.look();
       } });
     shown.show('surface');
-    this.playBar = el('div', { class: 'row', hidden: true }, strip(shown.element), this.pauseButton,
-      el('button', { type: 'button', id: 'reset', onclick: () => actions.reset() }, icon('reset'), 'Reset'),
-      el('button', { type: 'button', id: 'back', onclick: () => actions.stop() }, icon('close'), 'Back'));
+    this.playBar = el('div', { class: 'play-bar', hidden: true }, strip(shown.element), this.pauseButton,
+      el('button', { type: 'button', id: 'reset', 'aria-label': 'Reset', onclick: () => actions.reset() }, ...pictured('reset', 'Reset')),
+      el('button', { type: 'button', id: 'back', 'aria-label': 'Back', onclick: () => actions.stop() }, ...pictured('close', 'Back')));
     this.cutTool = this.makeCutTool();
     [this.clipTool, this.clipRows] = this.makeClipTool();
     this.element = el('main', { class: 'without-model', 'aria-label': 'Model' }, this.canvas,
@@ -103,7 +104,7 @@ export class Viewport {
     } }, 'Other side');
     const rows = el('div', { class: 'tool-rows', hidden: true }, el('div', { class: 'line' }, strip(axis.element), flip), bare(position.element));
     const tool = el('div', { class: 'card tool', hidden: true },
-      el('div', { class: 'row' }, flag('edges', 'Edges', 'Draw the edges of tets and triangles'), flag('quality', 'Quality', 'Colour each tet by its smallest angle'),
+      el('div', { class: 'flags' }, flag('edges', 'Edges', 'Draw the edges of tets and triangles'), flag('quality', 'Quality', 'Colour each tet by its smallest angle'),
         flag('ghost', 'Model', 'Show the model around the tets')), on.element, rows);
     return [tool, rows];
   }
@@ -126,6 +127,8 @@ export class Viewport {
   }
 
   setModel(present: boolean): void {
+    // On a phone the button that brought the model may be far down.
+    if (present && this.element.classList.contains('without-model')) scrollTo(0, 0);
     this.element.classList.toggle('without-model', !present);
     this.refresh();
   }
@@ -138,7 +141,9 @@ export class Viewport {
   }
 
   setPaused(paused: boolean): void {
-    this.pauseButton.replaceChildren(icon(paused ? 'play' : 'pause'), paused ? 'Go on' : 'Pause');
+    const name = paused ? 'Go on' : 'Pause';
+    this.pauseButton.setAttribute('aria-label', name);
+    this.pauseButton.replaceChildren(...pictured(paused ? 'play' : 'pause', name));
   }
 
   setStatus(text: string, busy = false): void {
@@ -165,16 +170,22 @@ export class Viewport {
     // On small screens there is room for a scale, but not for a histogram alone.
     this.legend.classList.toggle('histogram-only', !byQuality);
     const scale = [
-      el('strong', {}, 'Smallest angle of each tet'),
+      el('strong', {}, 'Smallest of each tet'),
       el('div', { class: 'scale', style: `background: ${gradient(kAngleStops)}` }),
       el('div', { class: 'ends' }, ...kAngleStops.map(([at]) => el('span', {}, `${at}°`))),
     ];
-    this.legend.replaceChildren(el('strong', {}, 'Angles between faces'), histogram(bins), ...(byQuality ? scale : []));
+    this.legend.replaceChildren(el('div', { class: 'part' }, el('strong', {}, 'Angles between faces'), histogram(bins)),
+      ...(byQuality ? [el('div', { class: 'part' }, ...scale)] : []));
   }
 
   hideLegend(): void {
     this.legend.hidden = true;
   }
+}
+
+/** A picture and a word, of which a phone shows the picture. */
+function pictured(name: string, word: string): Node[] {
+  return [icon(name), el('span', { class: 'wide' }, word)];
 }
 
 /** A choice without its label: the group says it to those who cannot see. */
