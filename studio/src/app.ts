@@ -176,7 +176,7 @@ export class App {
       this.finished = done ? `${words.count(result.report.quality.tet_count, 'tet')} in ${words.milliseconds(time)}` : '';
       this.viewport.setStatus(this.finished || 'Coarse answer, refining', !done);
       this.viewport.status.title = Object.entries(result.report.seconds).map(([stage, s]) => `${words.stageName(stage)}: ${words.milliseconds(1000 * s)}`).join('\n');
-      Object.assign(this.root.dataset, { state: done ? 'done' : 'coarse', tets: result.report.quality.tet_count, job: this.meshJob,
+      Object.assign(this.root.dataset, { state: done ? 'done' : 'coarse', tets: result.report.quality.tet_count, volume: result.report.quality.volume, job: this.meshJob,
         ms: time.toFixed(1), core: result.milliseconds.toFixed(1), seconds: JSON.stringify(result.report.seconds) });
     });
   }
