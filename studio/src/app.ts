@@ -80,7 +80,8 @@ export class App {
   private listen(): void {
     acceptDrops((file) => this.source.openFile(file));
     addEventListener('hashchange', () => {
-      const wanted = { ...fromAddress(location.hash), file: this.store.now.file };
+      const wanted = fromAddress(location.hash);
+      if (!wanted.sample) wanted.file = this.store.now.file;
       if (toAddress(wanted) !== toAddress(this.store.now)) this.store.set(wanted);
     });
     listenToKeys({
@@ -98,7 +99,7 @@ export class App {
       case 'soup': return this.source.isWanted(reply.job) ? this.onSoup(reply.surface, reply.report) : undefined;
       case 'mesh': return reply.job === this.meshJob ? this.onMesh(reply.result, reply.done) : undefined;
       case 'slice': return reply.job === this.sliceJob ? this.showSlice(reply.slice) : undefined;
-      case 'progress': return this.viewport.setStatus(`${words.stageName(reply.stage)} ${Math.round(100 * reply.fraction)} %`, true);
+      case 'progress': return this.viewport.setStatus(words.ofProgress(reply.stage, reply.fraction), true);
       case 'embed':
         this.viewport.setStatus(this.finished);
         return this.panels?.report('embedding', '', words.ofEmbedding(reply.report, this.store.now.unit));
@@ -150,8 +151,8 @@ export class App {
     this.view.setSoup(surface, report.box);
     const { now } = this.store;
     this.header.setModel(now.file || `${words.title(now.sample)}${now.damage ? `, ${now.damage} % damaged` : ''}`);
-    this.panels?.report('soup', words.count(report.used_triangles, 'triangle'), words.ofSoup(report, now.unit));
     this.panels?.report('embedding', '', []);
+    this.showReports();
     this.stage.setUp(kUpAxis[now.up]);
     this.viewport.setView(now.view);
     this.showLook();
@@ -220,7 +221,7 @@ export class App {
       this.fit();
     }
     if (differs('stiffness')) this.play.setStiffness(10 ** now.stiffness);
-    if (differs('unit') && this.soup) this.showReports();
+    if (differs('unit')) this.showReports();
     if (differs('sample', 'damage', 'file')) return void this.source.load();
     if (JSON.stringify(meshOptions(now)) !== JSON.stringify(meshOptions(before))) {
       this.view.placeFrame(now.translate, now.rotate);
@@ -296,7 +297,7 @@ export class App {
 
   private openExport(): void {
     const { file, sample } = this.store.now;
-    this.exporter?.open((file || sample || 'mesh').replace(/\.[^.]*$/, ''), this.meshDone);
+    this.exporter?.open((file || sample || 'mesh').replace(/\.[^.]*$/, ''));
   }
 
   private export(choice: ExportChoice): void {
@@ -323,32 +324,14 @@ export class App {
   // --- what is shown ---------------------------------------------------------------------------------------------------
 
   private showReports(): void {
-    const { report, panels } = this;
-    const { now } = this.store;
-    if (!panels || !this.soup) return;
-    panels.report('soup', words.count(this.soup.used_triangles, 'triangle'), words.ofSoup(this.soup, now.unit));
-    if (!report) return;
-    if (report.pseudo_volume.automatic && now.k === null) panels.setAutomaticK(report.pseudo_volume.k);
-    panels.report('volume', `k = ${report.pseudo_volume.k.toFixed(3)}`, words.ofVolume(report, now));
-    panels.report('lattice', words.count(report.lattice.tet_count, 'tet'), words.ofLattice(report, now));
-    panels.report('smoothing', report.quality.tet_count ? `${report.quality.min_dihedral_deg.toFixed(0)}° to ${report.quality.max_dihedral_deg.toFixed(0)}°` : '', words.ofSmoothing(report));
+    if (this.soup) this.panels?.showReports(this.soup, this.report);
   }
 
   private showLook(): void {
     const { look } = this.viewport;
     this.view.show(look, !this.play.on && this.soup !== null);
     this.play.look(this.viewport.playTets, true);
-    this.showLegend();
-  }
-
-  private showLegend(): void {
-    const { report, viewport } = this;
-    const { view, quality } = viewport.look;
-    if (this.play.on || !report) return viewport.hideLegend();
-    if (view === 'votes') return viewport.showVotes(this.slice, this.theme.dark);
-    if (view === 'tets') return viewport.showAngles(report.quality.dihedral_histogram, quality);
-    if (view === 'lattice') return viewport.showAngles(report.lattice_quality.dihedral_histogram, quality);
-    viewport.hideLegend();
+    this.viewport.showLegend(this.play.on ? null : this.report, this.slice, this.theme.dark);
   }
 
   private showSlice(slice: Slice): void {
@@ -370,6 +353,8 @@ export class App {
   }
 
   private updateButtons(): void {
-    this.panels?.setReady(this.meshDone && (this.report?.quality.tet_count ?? 0) > 0);
+    const ready = this.meshDone && (this.report?.quality.tet_count ?? 0) > 0;
+    this.panels?.setReady(ready);
+    this.exporter?.setReady(ready);
   }
 }

@@ -25,6 +25,13 @@ async function objections(page) {
   return found.flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.html.slice(0, 100)} ${node.any[0]?.message ?? ''}`));
 }
 
+test('axe-core is heard: it finds what is put in wrongly', async () => {
+  await studio.with('', async (page) => {
+    await page.evaluate(() => document.querySelector('main').append(document.createElement('button')));
+    assert.match((await objections(page)).join(), /button-name/);
+  });
+});
+
 const kStates = [
   ['without a model', '', async () => undefined],
   ['a mesh and its quality', '#sample=torus&voxels=48', async (page) => {

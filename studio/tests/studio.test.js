@@ -59,7 +59,7 @@ test('a real model is dropped, meshed, and said in plain words', async (t) => {
 });
 
 test('every slider changes the mesh', async () => {
-  await studio.with('#sample=robot&voxels=64', async (page) => {
+  await studio.with('#sample=robot&voxels=64&snap=off', async (page) => {
     let { volume } = await settled(page);
     await page.click('[data-control=k-auto]');
     await page.click('#place > summary');
@@ -129,10 +129,20 @@ test('a slider that moves on cancels the work in flight, and only the last wish 
   });
 });
 
+/** Types a number into a slider's field: it may be beyond the slider's end. */
+async function type(page, control, value) {
+  await page.locator(`input[type=range][data-control="${control}"]`).evaluate((range, v) => {
+    const field = range.closest('.control').querySelector('.number');
+    field.value = String(v);
+    field.dispatchEvent(new Event('change', { bubbles: true }));
+  }, value);
+}
+
 /** Milliseconds from a new wish, made once a stage of the old one says how far it is, to the new mesh. */
 async function changeItsMind(page) {
-  await push(page, 'voxels', 248);
-  await page.waitForFunction(() => /^Measuring distances [1-9]/.test(document.querySelector('.status').textContent), null, { polling: 5 });
+  await type(page, 'voxels', 440);
+  await page.waitForFunction(() => document.getElementById('app').dataset.state === 'coarse'
+    && /^Deciding what is inside/.test(document.querySelector('.status').textContent), null, { polling: 5 });
   const since = performance.now();
   await push(page, 'voxels', 32);
   await page.waitForFunction(() => {
@@ -143,10 +153,10 @@ async function changeItsMind(page) {
 }
 
 test('work is cancelled in the middle of a stage, and the page never freezes', { skip: kQuick }, async () => {
-  await studio.with('#sample=robot&voxels=256', async (page) => {
+  await studio.with('#sample=robot&voxels=448', async (page) => {
     const { threads, seconds } = await settled(page);
     assert.ok(Number(threads) > 1);
-    const stage = 1000 * JSON.parse(seconds).distance;
+    const stage = 1000 * JSON.parse(seconds).pseudo_volume;
     await page.evaluate(() => {
       globalThis.longest = 0;
       new PerformanceObserver((list) => list.getEntries().forEach((task) => (globalThis.longest = Math.max(globalThis.longest, task.duration))))
@@ -161,7 +171,7 @@ test('work is cancelled in the middle of a stage, and the page never freezes', {
     await page.waitForTimeout(200);
     const longest = await page.evaluate(() => globalThis.longest);
     console.log(`# another mesh ${Math.round(waited)} ms after a change of mind within a stage of ${Math.round(stage)} ms; longest task of the page ${longest} ms`);
-    assert.ok(waited < stage, `${waited} ms`);
+    assert.ok(waited < stage / 2, `${waited} ms`);
     assert.ok(longest < kLongestTask, `${longest} ms`);
   });
 });

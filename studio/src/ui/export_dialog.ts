@@ -38,11 +38,15 @@ export class ExportDialog {
     this.element = el('dialog', { 'aria-labelledby': 'export-title' }, form);
   }
 
-  open(name: string, ready: boolean): void {
+  open(name: string): void {
     this.name.value = name;
-    this.save.disabled = !ready;
     this.describe();
     this.element.showModal();
+  }
+
+  /** Whether there is a mesh to be saved. */
+  setReady(ready: boolean): void {
+    this.save.disabled = !ready;
   }
 
   private choice(): ExportChoice {

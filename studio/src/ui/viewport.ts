@@ -2,7 +2,7 @@
 import { gradient, kAngleStops, kBandColor, kVoteStops } from '../view/colors';
 import { histogram } from '../view/histogram';
 import type { Look } from '../view/model_view';
-import type { Slice } from '../core/protocol';
+import type { Report, Slice } from '../core/protocol';
 import type { View } from '../state';
 import { choice, type Control, slider, toggle } from './controls';
 import { el, icon } from './dom';
@@ -152,7 +152,16 @@ export class Viewport {
     this.status.classList.toggle('busy', busy);
   }
 
-  showVotes(slice: Slice | null, dark: boolean): void {
+  /** What the colours of the view stand for; nothing without a report. */
+  showLegend(report: Report | null, slice: Slice | null, dark: boolean): void {
+    const { view, quality } = this.look;
+    if (report && view === 'votes') this.showVotes(slice, dark);
+    else if (report && view === 'tets') this.showAngles(report.quality.dihedral_histogram, quality);
+    else if (report && view === 'lattice') this.showAngles(report.lattice_quality.dihedral_histogram, quality);
+    else this.hideLegend();
+  }
+
+  private showVotes(slice: Slice | null, dark: boolean): void {
     this.legend.hidden = slice === null;
     this.legend.classList.remove('histogram-only');
     if (!slice) return;

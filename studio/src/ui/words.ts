@@ -137,6 +137,12 @@ function sentence(text: string): string {
   return trimmed.charAt(0).toUpperCase() + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? '' : '.');
 }
 
+/** A stage that tries several ways is at its end several times, so that ends are not said. */
+export function ofProgress(stage: string, fraction: number): string {
+  const percent = Math.round(100 * fraction);
+  return stageName(stage) + (percent > 0 && percent < 100 ? ` ${percent} %` : '');
+}
+
 const kStageNames: Record<string, string> = {
   soup: 'Looking at the soup', distance: 'Measuring distances', pseudo_volume: 'Deciding what is inside',
   lattice: 'Filling with tets', smooth: 'Smoothing', embed: 'Hanging the surface', quality: 'Measuring the mesh',
