@@ -142,7 +142,7 @@ export class App {
   private onSoup(surface: { vertices: Float32Array; triangles: Uint32Array }, report: SoupReport): void {
     this.stopPlaying();
     this.soup = report;
-    this.source.loaded();
+    const another = this.source.loaded();
     this.report = null;
     this.meshDone = false;
     this.root.dataset.state = 'soup';
@@ -157,7 +157,8 @@ export class App {
     this.viewport.setView(now.view);
     this.showLook();
     this.stage.resize();
-    this.fit();
+    // A view that was chosen stays while triangles are taken away.
+    if (another) this.fit();
     this.updateButtons();
     if (report.class !== 'empty') this.askMesh();
     else this.notice.complain('There is no usable triangle in this file. Choose another one, or a sample.');
@@ -330,7 +331,7 @@ export class App {
   private showLook(): void {
     const { look } = this.viewport;
     this.view.show(look, !this.play.on && this.soup !== null);
-    this.play.look(this.viewport.playTets, true);
+    this.play.look(this.viewport.playTets);
     this.viewport.showLegend(this.play.on ? null : this.report, this.slice, this.theme.dark);
   }
 

@@ -93,8 +93,8 @@ export class Play {
     if (this.on) this.client.ask({ type: 'stiffness', young });
   }
 
-  look(tets: boolean, edges: boolean): void {
-    this.view.setLook(tets, edges, false);
+  look(tets: boolean): void {
+    this.view.setLook(tets);
   }
 
   stop(): void {

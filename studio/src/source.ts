@@ -12,6 +12,7 @@ function nameOf(s: Settings): string {
 export class Source {
   /** What the soup that is shown was made from. */
   private shown = nameOf({ sample: '', damage: 0, file: '' } as Settings);
+  private model = '';
   private job = 0;
   /** Handles of files that were opened; their bytes stay on disk. */
   private readonly files = new Map<string, File>();
@@ -26,7 +27,7 @@ export class Source {
 
   openFile(file: File): void {
     this.files.set(file.name, file);
-    this.shown = ''; // Even under the same name it may be another one.
+    this.shown = this.model = ''; // Even under the same name it may be another one.
     const before = this.store.now;
     this.store.set({ file: file.name, sample: '', damage: 0, up: kYUp.test(file.name) ? 'y' : 'z' });
     this.store.endStep();
@@ -61,7 +62,12 @@ export class Source {
     return job === this.job;
   }
 
-  loaded(): void {
+  /** The soup that was wanted is there. Returns whether it is of another model than the last one. */
+  loaded(): boolean {
+    const { sample, file } = this.store.now;
+    const another = this.model !== `${sample}/${file}`;
+    this.model = `${sample}/${file}`;
     this.shown = nameOf(this.store.now);
+    return another;
   }
 }

@@ -30,8 +30,6 @@ export class PlayView extends Group {
   private obstacles: SurfaceLayer[] = [];
   private grid: GridHelper | null = null;
   private showTets = false;
-  private quality = false;
-  private edges = false;
   private pulling: { plane: Plane; body: number; vertex: number } | null = null;
   private readonly rope = new Line(new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(6), 3)), new LineBasicMaterial());
   private readonly target = new Vector3();
@@ -98,12 +96,12 @@ export class PlayView extends Group {
     this.add(this.grid);
   }
 
-  setLook(tets: boolean, edges: boolean, quality: boolean): void {
-    [this.showTets, this.edges, this.quality] = [tets, edges, quality];
+  setLook(tets: boolean): void {
+    this.showTets = tets;
     this.bodies.forEach((b) => {
       b.surface.visible = !tets;
       b.tets.visible = tets;
-      b.tets.setLook({ edges, quality });
+      b.tets.setLook({ edges: true, quality: false });
       if (tets && b.positions.length) b.tets.move(b.positions);
     });
     this.stage.draw();
@@ -125,7 +123,7 @@ export class PlayView extends Group {
     });
     if (!this.fitted) {
       this.fitted = true;
-      this.setLook(this.showTets, this.edges, this.quality);
+      this.setLook(this.showTets);
       this.fit();
     }
     this.drawRope();
