@@ -49,7 +49,9 @@ export class Panels {
 
   private addPanel(name: PanelName): void {
     const brief = el('span', { class: 'brief' });
-    const report = el('ul', { class: 'report', 'data-report': name, 'aria-live': 'polite' });
+    // What a slider did is said by the status line; only answers to a button are said here.
+    const answers = name === 'embedding' || name === 'simulation';
+    const report = el('ul', { class: 'report', 'data-report': name, 'aria-live': answers ? 'polite' : 'off' });
     const body = el('div', { class: 'body' }, report);
     const element = el('details', { class: 'panel', id: `panel-${name}`, open: true },
       el('summary', {}, kTitles[name], brief), body);

@@ -136,6 +136,7 @@ export class Viewport {
   setPlaying(playing: boolean): void {
     this.playBar.hidden = !playing;
     this.viewBar.hidden = playing;
+    this.status.setAttribute('aria-live', playing ? 'off' : 'polite');
     this.refresh();
     if (playing) this.legend.hidden = true;
   }
@@ -150,6 +151,8 @@ export class Viewport {
     this.status.textContent = text;
     this.status.hidden = !text;
     this.status.classList.toggle('busy', busy);
+    // Screen readers say what came of it, not every step on the way.
+    this.status.setAttribute('aria-busy', String(busy));
   }
 
   /** What the colours of the view stand for; nothing without a report. */

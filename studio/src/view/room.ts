@@ -10,10 +10,10 @@ export function room(geometry: BufferGeometry, name: string, length: number): Fl
   if (attribute?.array.length !== length) {
     // What an attribute has on the GPU is given back only with its geometry; the other attributes return by themselves.
     geometry.dispose();
-    attribute = new BufferAttribute(new Float32Array(length), 3).setUsage(DynamicDrawUsage);
+    attribute = new BufferAttribute(new Float32Array(length), 3);
     geometry.setAttribute(name, attribute);
   }
-  attribute.needsUpdate = true;
+  attribute.setUsage(DynamicDrawUsage).needsUpdate = true;
   return attribute.array as Float32Array;
 }
 
