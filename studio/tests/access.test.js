@@ -64,10 +64,10 @@ for (const [size, viewport] of [['1280', kWide], ['390', kNarrow]])
       const all = [];
       for (const [name, hash, prepare] of kStates)
         await studio.with(hash, async (page) => {
-          await page.emulateMedia({ colorScheme: theme });
           await prepare(page);
+          assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), theme);
           all.push(...(await objections(page)).map((text) => `${name}: ${text}`));
-        }, viewport);
+        }, viewport, theme);
       assert.deepEqual([...new Set(all)], []);
     });
 

@@ -43,9 +43,10 @@ export class Studio {
   }
 
   /** A page at an address of settings, of which every message on the console is kept. */
-  async page(hash = '', size = kWide) {
+  async page(hash = '', size = kWide, theme = 'light') {
     const page = await this.context.newPage();
     await page.setViewportSize(size);
+    await page.emulateMedia({ colorScheme: theme });
     page.complaints = [];
     page.on('console', (message) => {
       if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver|swiftshader/i.test(message.text())) page.complaints.push(message.text());
@@ -57,8 +58,8 @@ export class Studio {
   }
 
   /** Runs with a page that is closed afterwards and must not have complained. */
-  async with(hash, body, size) {
-    const page = await this.page(hash, size);
+  async with(hash, body, size, theme) {
+    const page = await this.page(hash, size, theme);
     try {
       await body(page);
       assert.deepEqual(page.complaints, [], 'nothing is said on the console');

@@ -90,7 +90,7 @@ export class Viewport {
     };
     const change = (part: Partial<Look['clip']>) => {
       Object.assign(look.clip, part);
-      rows.hidden = !look.clip.on;
+      this.refresh();
       this.actions.look();
     };
     const on = toggle({ id: 'clip', label: 'Cut away', hint: 'Hides whole tets on one side of a plane; teal faces lie inside.', change: (value) => change({ on: value }) });
@@ -121,6 +121,7 @@ export class Viewport {
     const model = !this.element.classList.contains('without-model');
     this.cutTool.hidden = playing || !model || view !== 'votes';
     this.clipTool.hidden = playing || !model || view === 'votes';
+    (this.flags.get('edges') as HTMLElement).hidden = view === 'surface' && !this.look.clip.on;
     (this.flags.get('quality') as HTMLElement).hidden = view !== 'tets' && view !== 'lattice';
     (this.flags.get('ghost') as HTMLElement).hidden = view !== 'tets' && view !== 'lattice';
     this.clipRows.hidden = !this.look.clip.on;

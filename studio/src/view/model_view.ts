@@ -112,7 +112,7 @@ export class ModelView {
     this.lattice.visible = mesh && view === 'lattice';
     this.final.visible = mesh && (view === 'tets' || (view === 'surface' && clip !== null));
     for (const layer of [this.lattice, this.final]) {
-      layer.setLook({ edges: look.edges || view === 'surface', quality: look.quality });
+      layer.setLook({ edges: look.edges, quality: look.quality && view !== 'surface', opened: view === 'surface' });
       layer.setClip(clip);
     }
     this.updateFrame(visible);

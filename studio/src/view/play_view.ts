@@ -101,7 +101,7 @@ export class PlayView extends Group {
     this.bodies.forEach((b) => {
       b.surface.visible = !tets;
       b.tets.visible = tets;
-      b.tets.setLook({ edges: true, quality: false });
+      b.tets.setLook({ edges: true, quality: false, opened: false });
       if (tets && b.positions.length) b.tets.move(b.positions);
     });
     this.stage.draw();

@@ -30,6 +30,7 @@ export class TetLayer extends Group {
   private cut: Uint8Array = new Uint8Array();
   private clip: Clip | null = null;
   private byQuality = false;
+  private onlyOpened = false;
   private plain = new Color();
   private opened = new Color();
 
@@ -53,8 +54,13 @@ export class TetLayer extends Group {
     this.paint();
   }
 
-  setLook(look: { edges: boolean; quality: boolean }): void {
+  /** @param look.opened  Only the faces that the cut laid open, as where a surface is drawn around them. */
+  setLook(look: { edges: boolean; quality: boolean; opened: boolean }): void {
     this.edges.visible = look.edges;
+    if (this.onlyOpened !== look.opened) {
+      this.onlyOpened = look.opened;
+      this.cutAway();
+    }
     if (this.byQuality === look.quality) return;
     this.byQuality = look.quality;
     this.paint();
@@ -78,6 +84,10 @@ export class TetLayer extends Group {
       return clip.sign * (sum / 4 - clip.at) <= 0;
     };
     ({ faces: this.faces, cut: this.cut } = this.topology.visible(stands));
+    if (this.onlyOpened) {
+      this.faces = this.faces.filter((_, i) => this.cut[i]);
+      this.cut = this.cut.filter((cut) => cut);
+    }
     this.corners = this.topology.cornersOf(this.faces);
     this.place(input.vertices);
     this.paint();
@@ -130,11 +140,16 @@ export class TetLayer extends Group {
   private findEdges(): Uint32Array {
     const ends: number[] = [];
     const { corners } = this;
+    const single = new Set<number>();
+    const count = (this.input?.vertices.length ?? 0) / 3;
     for (let i = 0; i < corners.length; ++i) {
       const [a, b] = [corners[i], corners[i % 3 === 2 ? i - 2 : i + 1]];
       // The faces that are seen close up to a surface, in which every edge comes once in each direction.
       if (a < b) ends.push(a, b);
+      // Those that a cut laid open have a rim, whose edges come in one direction only.
+      if (this.onlyOpened && !single.delete(b * count + a)) single.add(a * count + b);
     }
+    for (const edge of single) if (edge % count < edge / count) ends.push(Math.floor(edge / count), edge % count);
     return new Uint32Array(ends);
   }
 }
