@@ -3,9 +3,11 @@ import { mkdirSync, writeFileSync } from 'node:fs';
 import { dirname, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
+import { BundledPackages } from './licenses';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const target = process.env.REPORT_TARGET ?? resolve(here, 'report/report.html');
+const packages = new BundledPackages();
 
 /** Puts scripts and styles into the page, and the page where it belongs. */
 function oneFile(): Plugin {
@@ -26,6 +28,8 @@ function oneFile(): Plugin {
           html = html.replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${String(file.source).trim()}</style>`);
         }
       }
+      // Their licences ask for a copy of themselves wherever the code goes.
+      html = html.replace('</head>', () => `<!--\n${packages.notices().join('\n')}-->\n  </head>`);
       mkdirSync(dirname(target), { recursive: true });
       writeFileSync(target, html);
       for (const name of Object.keys(bundle)) delete bundle[name];
@@ -38,5 +42,5 @@ export default defineConfig({
   base: './',
   publicDir: false,
   build: { target: 'es2021', write: false, modulePreload: { polyfill: false }, chunkSizeWarningLimit: 900, assetsInlineLimit: 1 << 20 },
-  plugins: [oneFile()],
+  plugins: [packages.collect(), oneFile()],
 });

@@ -1,12 +1,16 @@
 // The page: what the user does becomes settings, settings become wishes to the worker, and replies become pictures.
 import { Client } from './core/client';
-import type { Catalog, MeshResult, Reply, Report, Slice, SoupReport } from './core/protocol';
+import type { Catalog, MeshResult, PlayStart, Reply, Report, Slice, SoupReport } from './core/protocol';
 import { Play } from './play';
-import { fromAddress, kUnits, meshOptions, type Settings, Store, toAddress, type View } from './state';
+import { Source } from './source';
+import { fromAddress, kUnits, meshOptions, type Settings, Store, toAddress } from './state';
 import { Theme } from './theme';
-import { el, icon } from './ui/dom';
+import { el } from './ui/dom';
 import { acceptDrops, emptyState, kAccepted } from './ui/empty';
 import { download, downloadFiles, ExportDialog, type ExportChoice } from './ui/export_dialog';
+import { Header } from './ui/header';
+import { listenToKeys } from './ui/keys';
+import { makeNotice } from './ui/notice';
 import { Panels } from './ui/panels';
 import { Viewport } from './ui/viewport';
 import * as words from './ui/words';
@@ -15,8 +19,6 @@ import { Stage } from './view/stage';
 
 const kUpAxis = { x: 0, y: 1, z: 2 } as const;
 const kMaterial = { density: 1000, young: 1e5, poisson: 0.4 };
-/** Formats whose files have y up by custom. */
-const kYUp = /\.(obj|gltf|glb)$/i;
 
 export class App {
   private readonly store = new Store(fromAddress(location.hash));
@@ -26,6 +28,7 @@ export class App {
   private readonly play: Play;
   private readonly theme: Theme;
   private readonly client: Client;
+  private readonly source: Source;
   private panels: Panels | null = null;
   private exporter: ExportDialog | null = null;
   private empty: HTMLElement;
@@ -34,67 +37,56 @@ export class App {
   private slice: Slice | null = null;
   private meshDone = false;
   private meshJob = 0;
-  private soupJob = 0;
   private sliceJob = 0;
   private wishedAt = 0;
   private exportStem = '';
+  /** The status line of the mesh that is shown. */
+  private finished = '';
   private readonly picker = el('input', { type: 'file', accept: kAccepted, hidden: true, 'aria-label': 'Model file', onchange: () => this.pickFile() });
-  private readonly notice = el('div', { class: 'notice', role: 'alert', hidden: true });
-  private readonly name = el('span', { class: 'model-name' });
-  private readonly undo = el('button', { type: 'button', class: 'icon', title: 'Undo (Ctrl+Z)', 'aria-label': 'Undo', disabled: true, onclick: () => this.store.undo() }, icon('undo'));
-  private readonly redo = el('button', { type: 'button', class: 'icon', title: 'Redo (Ctrl+Y)', 'aria-label': 'Redo', disabled: true, onclick: () => this.store.redo() }, icon('redo'));
-  private readonly exportButton = el('button', { type: 'button', class: 'primary', id: 'export', disabled: true, onclick: () => this.openExport() }, icon('save'), 'Export');
+  private readonly notice = makeNotice();
+  private readonly header: Header;
 
   constructor(private readonly root: HTMLElement) {
     this.viewport = new Viewport({
       view: (view) => this.store.set({ view }), look: () => this.showLook(), slice: () => this.askSlice(), fit: () => this.fit(),
       pause: () => this.play.pause(), reset: () => this.play.reset(), stop: () => this.stopPlaying(),
     });
+    this.header = new Header({
+      open: () => this.picker.click(), undo: () => this.store.undo(), redo: () => this.store.redo(),
+      copyLink: () => void this.copyLink(), toggleTheme: () => this.theme.toggle(), export: () => this.openExport(),
+    });
     this.empty = emptyState(null, () => this.picker.click(), () => undefined, () => undefined);
-    this.viewport.element.append(this.empty, this.notice);
-    this.root.append(this.header(), el('aside', { 'aria-label': 'Settings' }), this.viewport.element, this.picker);
+    this.viewport.element.append(this.empty, this.notice.element);
+    this.root.append(this.header.element, el('aside', { 'aria-label': 'Settings' }), this.viewport.element, this.picker);
     this.stage = new Stage(this.viewport.canvas, 'The model in 3D. Arrow keys turn it, plus and minus zoom.');
     this.view = new ModelView(this.stage,
       (translate, rotate) => this.store.set({ translate, rotate }), () => this.store.endStep());
     this.client = new Client((reply) => this.onReply(reply));
+    this.source = new Source(this.client, this.store, {
+      loading: (text) => this.viewport.setStatus(text, true),
+      lost: (file) => this.onLost(file),
+      nothing: () => this.showNothing(),
+    });
     this.play = new Play(this.client, this.stage, this.viewport,
       () => ({ up: kUpAxis[this.store.now.up], young: 10 ** this.store.now.stiffness }), () => this.showLook(),
-      ({ frames, framesPerSecond, simulate, draw }) => Object.assign(this.root.dataset, { frames, fps: framesPerSecond.toFixed(1), simulate: simulate.toFixed(1), draw: draw.toFixed(1) }));
+      ({ frames, framesPerSecond, simulate, draw, box }) => Object.assign(this.root.dataset, { frames, fps: framesPerSecond.toFixed(1),
+        simulate: simulate.toFixed(1), draw: draw.toFixed(1), box: box.map((x) => x.toFixed(3)).join(' ') }));
     this.theme = new Theme((dark) => this.paint(dark));
     this.theme.apply();
     this.store.onChange((now, before) => this.onSettings(now, before));
     this.listen();
   }
 
-  private header(): HTMLElement {
-    return el('header', {}, el('h1', {}, 'tetsoup ', el('small', {}, 'studio')),
-      el('button', { type: 'button', 'aria-label': 'Open a model', onclick: () => this.picker.click() }, icon('open'), el('span', { class: 'wide' }, 'Open')),
-      this.name, el('span', { class: 'gap' }), this.undo, this.redo,
-      el('button', { type: 'button', class: 'icon', title: 'Copy a link to this mesh', 'aria-label': 'Copy a link to this mesh', onclick: () => void this.copyLink() }, icon('link')),
-      el('button', { type: 'button', class: 'icon', title: 'Light or dark', 'aria-label': 'Switch between light and dark', onclick: () => this.theme.toggle() }, icon('theme')),
-      this.exportButton);
-  }
-
   private listen(): void {
-    acceptDrops((file) => void this.openFile(file));
+    acceptDrops((file) => this.source.openFile(file));
     addEventListener('hashchange', () => {
-      const wanted = { ...fromAddress(location.hash), file: this.store.now.file };
+      const wanted = fromAddress(location.hash);
+      if (!wanted.sample) wanted.file = this.store.now.file;
       if (toAddress(wanted) !== toAddress(this.store.now)) this.store.set(wanted);
     });
-    addEventListener('keydown', (event) => {
-      const typing = event.target instanceof HTMLInputElement && event.target.type !== 'range';
-      if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z' && !typing) {
-        event.preventDefault();
-        if (event.shiftKey) this.store.redo();
-        else this.store.undo();
-      } else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'y' && !typing) {
-        event.preventDefault();
-        this.store.redo();
-      } else if (!typing && !event.ctrlKey && !event.metaKey && !event.altKey && !(event.target instanceof HTMLSelectElement)) {
-        if (event.key.toLowerCase() === 'f') this.fit();
-        const view = (['soup', 'votes', 'lattice', 'tets', 'surface'] as View[])[Number(event.key) - 1];
-        if (view && this.soup && !this.play.on) this.store.set({ view });
-      }
+    listenToKeys({
+      undo: () => this.store.undo(), redo: () => this.store.redo(), fit: () => this.fit(),
+      view: (view) => this.soup && !this.play.on && this.store.set({ view }),
     });
   }
 
@@ -103,13 +95,16 @@ export class App {
   private onReply(reply: Reply): void {
     switch (reply.type) {
       case 'ready': return this.onReady(reply.catalog);
-      case 'fatal': return this.complain(`The mesher could not be started: ${reply.message}. It needs a browser from 2022 or later, and a page served over http.`);
-      case 'soup': return this.onSoup(reply.surface, reply.report);
+      case 'fatal': return this.notice.complain(`The mesher could not be started: ${reply.message}. It needs a browser from 2022 or later, and a page served over http.`);
+      case 'soup': return this.source.isWanted(reply.job) ? this.onSoup(reply.surface, reply.report) : undefined;
       case 'mesh': return reply.job === this.meshJob ? this.onMesh(reply.result, reply.done) : undefined;
       case 'slice': return reply.job === this.sliceJob ? this.showSlice(reply.slice) : undefined;
-      case 'progress': return this.viewport.setStatus(`${words.stageName(reply.stage)} ${Math.round(100 * reply.fraction)} %`, true);
-      case 'embed': return this.panels?.report('embedding', '', words.ofEmbedding(reply.report, this.store.now.unit));
+      case 'progress': return this.viewport.setStatus(words.ofProgress(reply.stage, reply.fraction), true);
+      case 'embed':
+        this.viewport.setStatus(this.finished);
+        return this.panels?.report('embedding', '', words.ofEmbedding(reply.report, this.store.now.unit));
       case 'files':
+        this.viewport.setStatus(this.finished);
         downloadFiles(this.exportStem, reply.files);
         return this.exporter?.done(reply.files, reply.usage);
       case 'playing': return this.onPlaying(reply.start);
@@ -121,11 +116,11 @@ export class App {
 
   private onReady(catalog: Catalog): void {
     this.panels = new Panels(this.store, {
-      open: () => this.picker.click(), sample: (name) => this.openSample(name), gizmo: (mode) => this.view.showFrame(mode),
+      open: () => this.picker.click(), sample: (name) => this.source.openSample(name), gizmo: (mode) => this.view.showFrame(mode),
       embed: () => this.client.ask({ type: 'embed' }), showSurface: () => this.store.set({ view: 'surface' }), play: (scene) => this.startPlaying(scene),
     }, catalog);
     this.root.querySelector('aside')?.replaceWith(this.panels.element);
-    const empty = emptyState(catalog, () => this.picker.click(), (name) => this.openSample(name), () => this.startPlaying('robots-on-tree'));
+    const empty = emptyState(catalog, () => this.picker.click(), (name) => this.source.openSample(name), () => this.startPlaying('robots-on-tree'));
     this.empty.replaceWith(empty);
     this.empty = empty;
     this.exporter = new ExportDialog(catalog, (choice) => this.export(choice), () => void this.savePicture());
@@ -134,19 +129,20 @@ export class App {
     this.viewport.setView(this.store.now.view);
     const served = new URLSearchParams(location.search).get('model');
     if (served) void this.openServed(served);
-    else if (this.store.now.sample) this.loadSample();
+    else if (this.store.now.sample) void this.source.load();
   }
 
   /** The model that `tetsoup studio FILE` serves beside the page. */
   private async openServed(name: string): Promise<void> {
     const answer = await fetch(`model/${encodeURIComponent(name)}`);
-    if (answer.ok) await this.openFile(new File([await answer.arrayBuffer()], name));
-    else this.complain(`${name} is not there any more. Open a file, or choose a sample.`);
+    if (answer.ok) this.source.openFile(new File([await answer.arrayBuffer()], name));
+    else this.notice.complain(`${name} is not there any more. Open a file, or choose a sample.`);
   }
 
   private onSoup(surface: { vertices: Float32Array; triangles: Uint32Array }, report: SoupReport): void {
     this.stopPlaying();
     this.soup = report;
+    const another = this.source.loaded();
     this.report = null;
     this.meshDone = false;
     this.root.dataset.state = 'soup';
@@ -154,17 +150,18 @@ export class App {
     this.viewport.setModel(true);
     this.view.setSoup(surface, report.box);
     const { now } = this.store;
-    this.name.textContent = now.file || `${now.sample}${now.damage ? `, ${now.damage} % damaged` : ''}`;
-    this.panels?.report('soup', words.count(report.used_triangles, 'triangle'), words.ofSoup(report, now.unit));
+    this.header.setModel(now.file || `${words.title(now.sample)}${now.damage ? `, ${now.damage} % damaged` : ''}`);
     this.panels?.report('embedding', '', []);
+    this.showReports();
     this.stage.setUp(kUpAxis[now.up]);
     this.viewport.setView(now.view);
     this.showLook();
     this.stage.resize();
-    this.fit();
+    // A view that was chosen stays while triangles are taken away.
+    if (another) this.fit();
     this.updateButtons();
     if (report.class !== 'empty') this.askMesh();
-    else this.complain('There is no usable triangle in this file. Choose another one, or a sample.');
+    else this.notice.complain('There is no usable triangle in this file. Choose another one, or a sample.');
   }
 
   private onMesh(result: MeshResult, done: boolean): void {
@@ -178,9 +175,10 @@ export class App {
     this.updateButtons();
     this.stage.onDrawn(() => {
       const time = performance.now() - this.wishedAt;
-      this.viewport.setStatus(done ? `${words.count(result.report.quality.tet_count, 'tet')} in ${words.milliseconds(time)}` : 'Coarse answer, refining', !done);
+      this.finished = done ? `${words.count(result.report.quality.tet_count, 'tet')} in ${words.milliseconds(time)}` : '';
+      this.viewport.setStatus(this.finished || 'Coarse answer, refining', !done);
       this.viewport.status.title = Object.entries(result.report.seconds).map(([stage, s]) => `${words.stageName(stage)}: ${words.milliseconds(1000 * s)}`).join('\n');
-      Object.assign(this.root.dataset, { state: done ? 'done' : 'coarse', tets: result.report.quality.tet_count, job: this.meshJob,
+      Object.assign(this.root.dataset, { state: done ? 'done' : 'coarse', tets: result.report.quality.tet_count, volume: result.report.quality.volume, job: this.meshJob,
         ms: time.toFixed(1), core: result.milliseconds.toFixed(1), seconds: JSON.stringify(result.report.seconds) });
     });
   }
@@ -188,19 +186,31 @@ export class App {
   private onError(job: number, message: string, status: number): void {
     const text = words.ofError(message, status);
     if (this.exporter?.element.open) return this.exporter.failed(text);
-    this.complain(text);
+    const wasSource = this.source.isWanted(job);
+    if (wasSource) this.store.takeBack();
+    this.fail(text);
+    // A file that could not be read has cancelled the mesh of what is still there.
+    if (wasSource && !this.meshDone) this.askMesh();
+  }
+
+  private onLost(file: string): void {
+    this.store.takeBack();
+    this.fail(`${file} cannot be read: it is not there any more, or not a file. Open it again.`);
+  }
+
+  private fail(text: string): void {
+    this.notice.complain(text);
     this.viewport.setStatus('');
     this.root.dataset.state = 'error';
-    if (job === this.soupJob && !this.soup) this.store.set({ sample: '', file: '' });
   }
 
   // --- what the user does ----------------------------------------------------------------------------------------------
 
   private onSettings(now: Settings, before: Settings): void {
+    this.notice.hide();
     history.replaceState(null, '', toAddress(now) ? `#${toAddress(now)}` : location.pathname + location.search);
     this.panels?.show(now);
-    this.undo.disabled = !this.store.canUndo;
-    this.redo.disabled = !this.store.canRedo;
+    this.header.setHistory(this.store.canUndo, this.store.canRedo);
     const differs = (...keys: (keyof Settings)[]) => keys.some((key) => String(now[key]) !== String(before[key]));
     if (differs('view')) {
       this.viewport.setView(now.view);
@@ -212,8 +222,8 @@ export class App {
       this.fit();
     }
     if (differs('stiffness')) this.play.setStiffness(10 ** now.stiffness);
-    if (differs('unit') && this.soup) this.showReports();
-    if (now.sample && differs('sample', 'damage')) return this.loadSample();
+    if (differs('unit')) this.showReports();
+    if (differs('sample', 'damage', 'file')) return void this.source.load();
     if (JSON.stringify(meshOptions(now)) !== JSON.stringify(meshOptions(before))) {
       this.view.placeFrame(now.translate, now.rotate);
       this.stage.draw();
@@ -221,36 +231,31 @@ export class App {
     }
   }
 
-  private openSample(name: string): void {
-    this.store.set({ sample: name, file: '', up: 'z', unit: name === 'torus' ? 'cm' : 'm', damage: 0 });
-    this.store.endStep();
-  }
-
-  private loadSample(): void {
-    const { sample, damage } = this.store.now;
-    this.viewport.setStatus('Making the sample', true);
-    this.soupJob = this.client.ask({ type: 'load', source: { kind: 'sample', name: sample, damage: damage / 100, seed: 1 } });
-  }
-
   private pickFile(): void {
     const file = this.picker.files?.[0];
     this.picker.value = '';
-    if (file) void this.openFile(file);
+    if (file) this.source.openFile(file);
   }
 
-  private async openFile(file: File): Promise<void> {
-    this.notice.hidden = true;
-    this.viewport.setStatus(`Reading ${file.name}`, true);
-    const bytes = await file.arrayBuffer();
-    this.store.set({ file: file.name, sample: '', damage: 0, up: kYUp.test(file.name) ? 'y' : 'z' });
-    this.store.endStep();
-    this.soupJob = this.client.ask({ type: 'load', source: { kind: 'file', name: file.name, bytes } }, [bytes]);
+  /** Back to the page without a model. */
+  private showNothing(): void {
+    this.stopPlaying();
+    this.soup = this.report = this.slice = null;
+    this.meshDone = false;
+    this.meshJob = 0;
+    this.header.setModel('');
+    this.empty.hidden = false;
+    this.viewport.setModel(false);
+    this.viewport.setStatus('');
+    this.panels?.clear();
+    this.root.dataset.state = '';
+    this.showLook();
+    this.updateButtons();
   }
 
   private askMesh(): void {
     if (!this.soup || this.soup.class === 'empty') return;
     this.stopPlaying();
-    this.notice.hidden = true;
     this.meshDone = false;
     this.wishedAt = performance.now();
     this.root.dataset.state = 'busy';
@@ -264,24 +269,25 @@ export class App {
   }
 
   private startPlaying(scene: string | null): void {
-    this.notice.hidden = true;
+    this.notice.hide();
     this.root.dataset.state = 'preparing';
     this.play.begin(scene);
   }
 
-  private onPlaying(start: Parameters<Play['started']>[0]): void {
+  private onPlaying(start: PlayStart): void {
     this.empty.hidden = true;
     this.viewport.setModel(true);
     this.play.started(start);
     this.stage.resize();
     this.root.dataset.state = 'playing';
-    this.panels?.report('simulation', '', [{ tone: 'plain', text: `${start.title}. Drag a body with the mouse or a finger to pull it.` }]);
+    this.panels?.report('simulation', '', words.ofPlay(start));
   }
 
   private stopPlaying(): void {
     if (!this.play.on) return;
     this.play.stop();
     this.panels?.report('simulation', '', []);
+    this.viewport.setStatus(this.meshDone ? this.finished : '');
     this.root.dataset.state = this.meshDone ? 'done' : '';
     if (!this.soup) {
       this.empty.hidden = false;
@@ -292,7 +298,7 @@ export class App {
 
   private openExport(): void {
     const { file, sample } = this.store.now;
-    this.exporter?.open((file || sample || 'mesh').replace(/\.[^.]*$/, ''), this.meshDone);
+    this.exporter?.open((file || sample || 'mesh').replace(/\.[^.]*$/, ''));
   }
 
   private export(choice: ExportChoice): void {
@@ -310,41 +316,23 @@ export class App {
   private async copyLink(): Promise<void> {
     try {
       await navigator.clipboard.writeText(location.href);
-      this.tell(this.store.now.file ? 'Link copied. It holds the settings; whoever opens it drops the file themselves.' : 'Link copied. It makes the same mesh, to the bit.');
+      this.notice.tell(this.store.now.file ? 'Link copied. It holds the settings; whoever opens it drops the file themselves.' : 'Link copied. It makes the same mesh, to the bit.');
     } catch {
-      this.tell('Copy the address of this page: it holds all settings.');
+      this.notice.tell('Copy the address of this page: it holds all settings.');
     }
   }
 
   // --- what is shown ---------------------------------------------------------------------------------------------------
 
   private showReports(): void {
-    const { report, panels } = this;
-    const { now } = this.store;
-    if (!panels || !this.soup) return;
-    panels.report('soup', words.count(this.soup.used_triangles, 'triangle'), words.ofSoup(this.soup, now.unit));
-    if (!report) return;
-    if (report.pseudo_volume.automatic && now.k === null) panels.setAutomaticK(report.pseudo_volume.k);
-    panels.report('volume', `k = ${report.pseudo_volume.k.toFixed(3)}`, words.ofVolume(report, now));
-    panels.report('lattice', words.count(report.lattice.tet_count, 'tet'), words.ofLattice(report, now));
-    panels.report('smoothing', report.quality.tet_count ? `${report.quality.min_dihedral_deg.toFixed(0)}° to ${report.quality.max_dihedral_deg.toFixed(0)}°` : '', words.ofSmoothing(report));
+    if (this.soup) this.panels?.showReports(this.soup, this.report);
   }
 
   private showLook(): void {
     const { look } = this.viewport;
     this.view.show(look, !this.play.on && this.soup !== null);
-    this.play.look(this.viewport.playTets, true);
-    this.showLegend();
-  }
-
-  private showLegend(): void {
-    const { report, viewport } = this;
-    const { view, quality } = viewport.look;
-    if (this.play.on || !report) return viewport.hideLegend();
-    if (view === 'votes') return viewport.showVotes(this.slice, this.theme.dark);
-    if (view === 'tets') return viewport.showAngles(report.quality.dihedral_histogram, quality);
-    if (view === 'lattice') return viewport.showAngles(report.lattice_quality.dihedral_histogram, quality);
-    viewport.hideLegend();
+    this.play.look(this.viewport.playTets);
+    this.viewport.showLegend(this.play.on ? null : this.report, this.slice, this.theme.dark);
   }
 
   private showSlice(slice: Slice): void {
@@ -366,20 +354,8 @@ export class App {
   }
 
   private updateButtons(): void {
-    this.exportButton.disabled = !this.soup;
-    this.panels?.setReady(this.soup !== null, this.meshDone && (this.report?.quality.tet_count ?? 0) > 0);
-  }
-
-  private complain(text: string): void {
-    this.showNotice(text, true);
-  }
-  private tell(text: string): void {
-    this.showNotice(text, false);
-  }
-  private showNotice(text: string, watch: boolean): void {
-    this.notice.className = watch ? 'notice watch' : 'notice';
-    this.notice.replaceChildren(el('p', {}, text),
-      el('button', { type: 'button', 'aria-label': 'Close', onclick: () => (this.notice.hidden = true) }, icon('close')));
-    this.notice.hidden = false;
+    const ready = this.meshDone && (this.report?.quality.tet_count ?? 0) > 0;
+    this.panels?.setReady(ready);
+    this.exporter?.setReady(ready);
   }
 }

@@ -14,16 +14,17 @@ export interface PlayStats {
   framesPerSecond: number;
   simulate: number;
   draw: number;
+  /** Around the first body: least and greatest x, y, z, in metres. */
+  box: number[];
 }
 
 export class Play {
   readonly view: PlayView;
   on = false;
   paused = false;
-  readonly stats: PlayStats = { frames: 0, framesPerSecond: 0, simulate: 0, draw: 0 };
+  readonly stats: PlayStats = { frames: 0, framesPerSecond: 0, simulate: 0, draw: 0, box: [] };
   private scene: string | null = null;
   private arrivals: { at: number; simulate: number; draw: number }[] = [];
-  private tetCount = 0;
 
   constructor(private readonly client: Client, private readonly stage: Stage, private readonly viewport: Viewport,
               private readonly settings: () => { up: number; young: number }, private readonly changed: () => void,
@@ -38,7 +39,8 @@ export class Play {
   begin(scene: string | null): void {
     this.scene = scene;
     this.viewport.setStatus(scene ? 'Meshing the scene' : 'Preparing the body', true);
-    this.client.ask({ type: 'play', wish: { scene, up: this.settings().up, young: scene ? 0 : this.settings().young } });
+    this.client.ask({ type: 'play', wish: { scene, up: this.settings().up, young: scene ? 0 : this.settings().young,
+      drawnBy: this.stage.drawnBy } });
   }
 
   started(start: PlayStart): void {
@@ -46,7 +48,6 @@ export class Play {
     this.paused = false;
     this.arrivals = [];
     this.stats.frames = 0;
-    this.tetCount = start.tetCount;
     this.view.start(start);
     this.viewport.setPlaying(true);
     this.viewport.setPaused(false);
@@ -70,12 +71,12 @@ export class Play {
     stats.frames += 1;
     stats.simulate = mean('simulate');
     stats.draw = mean('draw');
+    stats.box = this.view.boxOfFirst();
     const time = arrivals[arrivals.length - 1].at - arrivals[0].at;
     stats.framesPerSecond = time > 0 ? (1000 * (arrivals.length - 1)) / time : 0;
     this.noted(stats);
     if (stats.frames % 6 !== 1) return;
-    this.viewport.setStatus(`${Math.round(stats.framesPerSecond)} frames/s · ${this.tetCount.toLocaleString('en')} tets · `
-      + `simulating ${milliseconds(stats.simulate)}, drawing ${milliseconds(stats.draw)}`);
+    this.viewport.setStatus(`${Math.round(stats.framesPerSecond)} frames/s · simulating ${milliseconds(stats.simulate)}, drawing ${milliseconds(stats.draw)}`);
   }
 
   pause(): void {
@@ -92,8 +93,8 @@ export class Play {
     if (this.on) this.client.ask({ type: 'stiffness', young });
   }
 
-  look(tets: boolean, edges: boolean): void {
-    this.view.setLook(tets, edges, false);
+  look(tets: boolean): void {
+    this.view.setLook(tets);
   }
 
   stop(): void {
@@ -102,7 +103,6 @@ export class Play {
     this.client.send({ type: 'stop' });
     this.view.empty();
     this.viewport.setPlaying(false);
-    this.viewport.setStatus('');
     this.changed();
   }
 }

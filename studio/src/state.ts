@@ -116,6 +116,13 @@ export class Store {
     this.apply(now);
   }
 
+  /** Leaves out the last step, as if it had not been made. */
+  takeBack(): void {
+    const before = this.past.pop();
+    this.lastKey = '';
+    if (before) this.apply(before);
+  }
+
   /** The next change starts a step of its own: a slider was let go. */
   endStep(): void {
     this.lastKey = '';

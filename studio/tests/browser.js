@@ -13,6 +13,9 @@ export const dist = join(studio, 'dist');
 export const kWide = { width: 1280, height: 800 };
 export const kNarrow = { width: 390, height: 844 };
 
+export const kTool = join(repository, 'build/release/bin/tetsoup');
+export const kOut = join(studio, 'tests/out');
+
 const kArguments = [
   '--headless', '--no-sandbox', '--disable-gpu', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic',
   '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
@@ -40,9 +43,10 @@ export class Studio {
   }
 
   /** A page at an address of settings, of which every message on the console is kept. */
-  async page(hash = '', size = kWide) {
+  async page(hash = '', size = kWide, theme = 'light') {
     const page = await this.context.newPage();
     await page.setViewportSize(size);
+    await page.emulateMedia({ colorScheme: theme });
     page.complaints = [];
     page.on('console', (message) => {
       if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver|swiftshader/i.test(message.text())) page.complaints.push(message.text());
@@ -51,6 +55,17 @@ export class Studio {
     await page.goto(this.server.address + hash);
     await page.waitForSelector('#app[data-threads]', { timeout: 60000 });
     return page;
+  }
+
+  /** Runs with a page that is closed afterwards and must not have complained. */
+  async with(hash, body, size, theme) {
+    const page = await this.page(hash, size, theme);
+    try {
+      await body(page);
+      assert.deepEqual(page.complaints, [], 'nothing is said on the console');
+    } finally {
+      await page.close();
+    }
   }
 
   async close() {
@@ -84,6 +99,27 @@ export async function slide(page, control, travel) {
     return dataset.state === 'done' && dataset.job !== job;
   }, before.job, { timeout: 60000 });
   return state(page);
+}
+
+/** Moves a slider, and waits for nothing. */
+export async function push(page, control, value) {
+  await page.locator(`input[type=range][data-control="${control}"]`).evaluate((input, v) => {
+    input.value = String(v);
+    input.dispatchEvent(new Event('input', { bubbles: true }));
+    input.dispatchEvent(new Event('change', { bubbles: true }));
+  }, value);
+}
+
+/** Waits until so many frames were played since it began. */
+export async function played(page, frames, timeout = 60000) {
+  await page.waitForFunction((n) => Number(document.getElementById('app').dataset.frames) > n, frames, { timeout });
+  return state(page);
+}
+
+/** Where the first body is: least and greatest x, y, z in metres. */
+export async function boxOf(page) {
+  const [left, front, low, right, back, high] = (await state(page)).box.split(' ').map(Number);
+  return { middle: [(left + right) / 2, (front + back) / 2, (low + high) / 2], width: right - left, height: high - low };
 }
 
 export async function dropFile(page, path) {

@@ -26,6 +26,11 @@ const kPictures = [
   ['tets', '#sample=robot', async (page) => page.click('[data-control=clip]')],
   ['quality', '#sample=robot', async (page) => page.click('[data-flag=quality]')],
   ['votes', '#sample=palm&view=votes'],
+  ['surface', '#sample=robot&damage=30&view=surface', async (page) => page.click('[data-control=clip]')],
+  ['export', '#sample=torus', async (page) => {
+    await page.click('#export');
+    await page.selectOption('#export-what', 'engine:mujoco');
+  }],
   ['dark', '#sample=heart&view=lattice', async (page) => page.click('[aria-label^="Switch between"]')],
 ];
 

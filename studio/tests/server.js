@@ -5,7 +5,7 @@ import { extname, join, normalize } from 'node:path';
 
 const kTypes = {
   '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm',
-  '.svg': 'image/svg+xml', '.json': 'application/json',
+  '.svg': 'image/svg+xml', '.txt': 'text/plain; charset=utf-8', '.json': 'application/json',
 };
 
 /** @returns {Promise<{address: string, close: () => Promise<void>}>} */

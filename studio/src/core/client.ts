@@ -17,10 +17,6 @@ export class Client {
     this.send({ type: 'start', base: document.baseURI.replace(/#.*$/, ''), shared: this.shared });
   }
 
-  get isolated(): boolean {
-    return this.shared !== null;
-  }
-
   /** Asks for work; a new mesh or soup cancels the mesh in flight. Returns the job's number. */
   ask(wish: Wish, transfer: Transferable[] = []): number {
     const job = ++this.job;

@@ -7,7 +7,7 @@ import type {
 
 const kCoarseVoxels = 48;
 /** Above this a step feels slow, and a coarse answer comes first. */
-export const kSlowMilliseconds = 150;
+const kSlowMilliseconds = 150;
 /** Half of what WebAssembly can have: the rest is for meshes, copies and the simulation. */
 const kGridBytes = 1024 * 1024 * 1024;
 const kMinDihedral = 1;
@@ -115,11 +115,9 @@ export class Mesher {
     const report = core.json<Report>();
     if (!coarse) this.last = { options, seconds: report.seconds };
     return {
-      coarse,
       lattice: this.tets(pipeline, 0),
       final: this.tets(pipeline, 1),
       report,
-      grid: this.grid(pipeline),
       slice: wish && this.slice(wish, pipeline),
       milliseconds: performance.now() - since,
     };

@@ -17,9 +17,9 @@ interface Emscripten {
 }
 type Create = (options: Record<string, unknown>) => Promise<Emscripten>;
 
-export const kOk = 0;
+const kOk = 0;
 export const kCancelled = 3;
-export const kOutOfMemory = 4;
+const kOutOfMemory = 4;
 
 /** A status other than OK, with the library's own words. */
 export class CoreError extends Error {
@@ -28,7 +28,6 @@ export class CoreError extends Error {
   }
 }
 
-const kPage = 65536;
 const kMemory = { initial: 1024, maximum: 32768 };
 const kResultBytes = 96;
 
@@ -63,10 +62,6 @@ export class Core {
 
   private get buffer(): ArrayBufferLike {
     return this.memory ? this.memory.buffer : this.module.HEAPU8.buffer;
-  }
-
-  get heapPages(): number {
-    return this.buffer.byteLength / kPage;
   }
 
   /** Calls a function that returns a status; throws where it is not OK. */

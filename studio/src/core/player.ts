@@ -1,6 +1,6 @@
 // A simulation that plays: the meshed body that falls on the ground, or a built-in scene.
 import type { Core } from './module';
-import type { BodyFrame, BodyShape, Frame, PlayStart, PlayWish, Surface, Vec3 } from './protocol';
+import type { BodyFrame, BodyShape, Frame, PlayStart, PlayWish, Skin, Surface, Vec3 } from './protocol';
 import type { Body } from './body';
 import type { Mesher } from './mesher';
 
@@ -13,6 +13,9 @@ const kGrabbed = 8;
 /** The pull of one metre in multiples of the body's weight. */
 const kPull = 12;
 const kGravity = 9.81;
+/** Triangles that a processor draws in some ten milliseconds. */
+const kMostTriangles = 10000;
+const kAllThreads = 0;
 const kMaterial = { density: 1000, poisson: 0.4, damping_time: 0.004, friction: 0.8 };
 
 interface SceneBody {
@@ -24,7 +27,6 @@ export class Player {
   private wish: PlayWish | null = null;
   private springs: { spring: number; offset: Vec3 }[] = [];
   private bodyCount = 0;
-  private frames = 0;
   private mass = 1;
 
   constructor(private readonly core: Core, private readonly mesher: Mesher, private readonly body: Body) {}
@@ -33,17 +35,22 @@ export class Player {
     return this.simulation !== 0;
   }
 
-  start(wish: PlayWish): PlayStart {
+  async start(wish: PlayWish): Promise<PlayStart> {
     this.stop();
     this.wish = wish;
-    const { title, young } = this.build(wish.young);
+    const title = this.build(wish.young);
     const { core } = this;
     core.call('simulation_body_count', this.simulation, core.result);
     this.bodyCount = core.word();
-    this.frames = 0;
     core.call('simulation_report', this.simulation, core.result);
     const report = core.json<{ tet_count: number }>();
-    return { bodies: this.shapes(), obstacles: this.obstacles(), tetCount: report.tet_count, title, young };
+    const [bodies, obstacles] = [this.shapes(), this.obstacles()];
+    const triangleCount = [...bodies, ...obstacles].reduce((sum, skin) => sum + skin.triangles.length / 3, 0);
+    if (wish.drawnBy === 'processor') {
+      const surfaces = this.frame().bodies;
+      await spare([...bodies.map((body, i) => ({ ...surfaces[i], skin: body })), ...obstacles.map((o) => ({ ...o, skin: o }))], triangleCount);
+    }
+    return { bodies, obstacles, tetCount: report.tet_count, triangleCount, title };
   }
 
   /** Everything stays where it is and as fast as it is, of another material. */
@@ -64,26 +71,28 @@ export class Player {
         values.length / 3))));
   }
 
-  private build(young: number): { title: string; young: number } {
-    if (this.wish?.scene) return this.loadScene(this.wish.scene, young);
-    this.dropBody(young);
-    return { title: 'The body falls on the ground', young };
+  private build(young: number): string {
+    const { wish } = this;
+    this.core.number('set_thread_count', kAllThreads);
+    const title = wish?.scene ? this.loadScene(wish.scene, young) : this.dropBody(young);
+    // Steps are short, and whoever waits between them for the next loop would keep the core that draws.
+    if (wish?.drawnBy === 'processor') this.core.number('set_thread_count', 1);
+    return title;
   }
 
-  private loadScene(name: string, young: number): { title: string; young: number } {
+  private loadScene(name: string, young: number): string {
     const { core } = this;
     core.withTexts([name], (text) => core.call('scene_text', text, core.result));
     const scene = core.json<{ title?: string; bodies: SceneBody[] }>();
-    const own = scene.bodies[0]?.material?.young ?? 1e5;
     if (young > 0) scene.bodies.forEach((body) => (body.material = { ...body.material, young }));
     core.withTexts([JSON.stringify(scene)], (text) =>
       core.call('scene_load', text, 0, core.progress, 0, core.result));
     this.simulation = core.word();
     this.mass = 20;
-    return { title: scene.title ?? name, young: young > 0 ? young : own };
+    return scene.title ?? name;
   }
 
-  private dropBody(young: number): void {
+  private dropBody(young: number): string {
     const { core } = this;
     const up = this.wish?.up ?? 2;
     core.call('pipeline_report', this.mesher.pipeline, 0, core.result);
@@ -107,6 +116,7 @@ export class Player {
       core.call('simulation_add_model', this.simulation, model, material, where, core.result));
     core.withDoubles([0, 0, 1], (normal) =>
       core.call('simulation_add_plane', this.simulation, normal, 0, kMaterial.friction));
+    return 'The body falls on the ground';
   }
 
   private shapes(): BodyShape[] {
@@ -115,17 +125,17 @@ export class Player {
       core.call('simulation_tets', this.simulation, body, core.result);
       const tets = core.indices();
       core.call('simulation_triangles', this.simulation, body, core.result);
-      return { tets, tetCount: tets.length / 4, triangles: core.indices() };
+      return { tets, triangles: core.indices(), outward: false };
     });
   }
 
-  private obstacles(): Surface[] {
+  private obstacles(): (Skin & Surface)[] {
     const { core } = this;
     if (!this.wish?.scene) return [];
     core.call('scene_obstacle_count', this.simulation, core.result);
     return Array.from({ length: core.word() }, (_, i) => {
       core.call('scene_obstacle', this.simulation, i, core.result, core.result + 12);
-      return { vertices: core.floats(), triangles: core.indices(12) };
+      return { vertices: core.floats(), triangles: core.indices(12), outward: false };
     });
   }
 
@@ -134,9 +144,7 @@ export class Player {
     const since = performance.now();
     if (this.wish?.scene) core.call('scene_advance', this.simulation);
     else core.call('simulation_step', this.simulation, kStep);
-    const frame = this.frame();
-    this.frames += 1;
-    return { ...frame, simulateMilliseconds: performance.now() - since };
+    return { ...this.frame(), simulateMilliseconds: performance.now() - since };
   }
 
   frame(): Frame {
@@ -148,7 +156,7 @@ export class Player {
       core.call('simulation_positions', this.simulation, body, core.result);
       bodies.push({ vertices, normals, positions: core.floats() });
     }
-    return { number: this.frames, time: this.frames * kStep, bodies, simulateMilliseconds: 0 };
+    return { bodies, simulateMilliseconds: 0 };
   }
 
   grab(body: number, vertex: number, target: Vec3): void {
@@ -185,6 +193,22 @@ export class Player {
   stop(): void {
     this.springs = [];
     this.core.number('simulation_destroy', this.simulation);
+    this.core.number('set_thread_count', kAllThreads);
     this.simulation = 0;
+  }
+}
+
+interface Drawn {
+  vertices: Float32Array;
+  skin: Skin;
+}
+
+/** Leaves of all that is drawn so many triangles as a processor draws in time. */
+async function spare(drawn: Drawn[], triangleCount: number): Promise<void> {
+  const { thin, facesOutward } = await import('./thin');
+  for (const { vertices, skin } of drawn) {
+    const share = skin.triangles.length / 3 / triangleCount;
+    skin.triangles = await thin(vertices, skin.triangles, Math.ceil(share * kMostTriangles));
+    skin.outward = facesOutward(vertices, skin.triangles);
   }
 }

@@ -126,11 +126,9 @@ export interface Slice {
   grid: Grid;
 }
 export interface MeshResult {
-  coarse: boolean;
   lattice: Tets;
   final: Tets;
   report: Report;
-  grid: Grid;
   slice: Slice | null;
   milliseconds: number;
 }
@@ -163,18 +161,23 @@ export interface PlayWish {
   scene: string | null;
   up: number;
   young: number;
+  /** Who draws: a processor that does is spared triangles, and has the second core to itself. */
+  drawnBy: 'gpu' | 'processor';
 }
-export interface BodyShape {
+/** Triangles to be drawn, and whether their backs are never seen. */
+export interface Skin {
   triangles: Uint32Array;
+  outward: boolean;
+}
+export interface BodyShape extends Skin {
   tets: Uint32Array;
-  tetCount: number;
 }
 export interface PlayStart {
   bodies: BodyShape[];
-  obstacles: Surface[];
+  obstacles: (Skin & Surface)[];
   tetCount: number;
+  triangleCount: number;
   title: string;
-  young: number;
 }
 export interface BodyFrame {
   vertices: Float32Array;
@@ -182,8 +185,6 @@ export interface BodyFrame {
   positions: Float32Array;
 }
 export interface Frame {
-  number: number;
-  time: number;
   bodies: BodyFrame[];
   simulateMilliseconds: number;
 }
@@ -193,7 +194,6 @@ export type Request =
   | { type: 'load'; job: number; source: Source }
   | { type: 'mesh'; job: number; options: MeshOptions; slice: SliceWish | null; material: Material }
   | { type: 'slice'; job: number; slice: SliceWish }
-  | { type: 'accuracy'; job: number }
   | { type: 'embed'; job: number }
   | { type: 'export'; job: number; wish: ExportWish }
   | { type: 'play'; job: number; wish: PlayWish }

@@ -121,14 +121,14 @@ async function runJob(request: Job): Promise<void> {
       return reply({ type: 'files', job, ...body.write(request.wish) });
     case 'play': {
       if (!request.wish.scene) needMesh();
-      const begin = player.start(request.wish);
+      const begin = await player.start(request.wish);
+      if (!player.playing) return; // Stopped before it began.
       undrawn = 0;
       paused = false;
       reply({ type: 'playing', job, start: begin });
       return sendFrame(false);
     }
     case 'stiffness': return player.playing ? player.setStiffness(request.young) : undefined;
-    case 'accuracy': return undefined;
   }
 }
 

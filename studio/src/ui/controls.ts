@@ -16,7 +16,12 @@ interface Common {
   hint: string;
 }
 
+/** What has a name, a question mark that explains it, and perhaps a value in the same line. */
 function labelled(common: Common, target: string, value: Node | null, ...body: Node[]): HTMLElement {
+  return explained(common, target, el('label', { for: target }, common.label), value, ...body);
+}
+
+function explained(common: Common, target: string, name: Node, value: Node | null, ...body: Node[]): HTMLElement {
   const hintId = `${target}-hint`;
   const hint = el('p', { class: 'hint', id: hintId, hidden: true }, common.hint);
   const more = el('button', {
@@ -28,7 +33,7 @@ function labelled(common: Common, target: string, value: Node | null, ...body: N
     },
   }, '?');
   return el('div', { class: 'control' },
-    el('div', { class: 'control-head' }, el('label', { for: target }, common.label), more, value), ...body, hint);
+    el('div', { class: 'control-head' }, name, more, value), ...body, hint);
 }
 
 export interface SliderOptions extends Common {
@@ -101,14 +106,14 @@ export interface ChoiceOptions<T extends string> extends Common {
 /** A few values side by side. */
 export function choice<const T extends string>(o: ChoiceOptions<T>): Control<T> {
   const id = `${o.id}-${++unique}`;
-  const inputs = o.choices.map(([value, text], i) => {
-    const input = el('input', { type: 'radio', name: id, id: i ? `${id}-${i}` : id, value, 'data-control': o.id,
+  const inputs = o.choices.map(([value, text]) => {
+    const input = el('input', { type: 'radio', name: id, value, 'data-control': o.id,
       onchange: () => o.change(value) });
     return { value, input, label: el('label', {}, input, el('span', {}, text)) };
   });
   const group = el('div', { class: 'segments', role: 'radiogroup', 'aria-label': o.label }, ...inputs.map((i) => i.label));
   return {
-    element: labelled(o, id, null, group),
+    element: explained(o, id, el('span', { class: 'name' }, o.label), null, group),
     show: (value) => inputs.forEach((i) => (i.input.checked = i.value === value)),
     enable: (on) => inputs.forEach((i) => (i.input.disabled = !on)),
   };

@@ -32,17 +32,21 @@ export class ExportDialog {
       el('div', { class: 'field' }, el('label', { for: 'export-what' }, 'As'), this.what),
       el('div', { class: 'field' }, el('label', { for: 'export-name' }, 'Name'), this.name),
       this.note,
-      el('div', { class: 'row' },
+      el('div', { class: 'buttons' },
         el('button', { type: 'button', id: 'export-picture', onclick: onPicture }, 'Picture of the view'),
         el('button', { type: 'button', onclick: () => this.element.close() }, 'Close'), this.save));
     this.element = el('dialog', { 'aria-labelledby': 'export-title' }, form);
   }
 
-  open(name: string, ready: boolean): void {
+  open(name: string): void {
     this.name.value = name;
-    this.save.disabled = !ready;
     this.describe();
     this.element.showModal();
+  }
+
+  /** Whether there is a mesh to be saved. */
+  setReady(ready: boolean): void {
+    this.save.disabled = !ready;
   }
 
   private choice(): ExportChoice {
@@ -58,8 +62,9 @@ export class ExportDialog {
   private describe(): void {
     const [kind, value] = this.what.value.split(':');
     const rows = kind === 'engine' ? this.catalog.engines : this.catalog.formats;
-    this.note.textContent = rows.find((row) => row.name === value)?.summary ?? '';
-    if (kind === 'engine') this.note.textContent += '. Lengths are written in metres, by the unit of the soup.';
+    const summary = rows.find((row) => row.name === value)?.summary ?? '';
+    // Formats are named by their summary.
+    this.note.textContent = kind === 'engine' ? `${summary}. Lengths are written in metres, by the unit of the soup.` : '';
   }
 
   done(files: OutFile[], usage: string): void {

@@ -1,9 +1,9 @@
 // The panels at the side, in the order of the flow: each a few controls, and what came of them in plain words.
-import type { Catalog } from '../core/protocol';
+import type { Catalog, Report, SoupReport } from '../core/protocol';
 import { kUnits, type Settings, type Store } from '../state';
 import { choice, type Control, select, slider, toggle } from './controls';
 import { el } from './dom';
-import { likeWhat, pascals, type Sentence } from './words';
+import * as words from './words';
 
 export type PanelName = 'soup' | 'volume' | 'lattice' | 'smoothing' | 'embedding' | 'simulation';
 
@@ -31,10 +31,8 @@ export class Panels {
   readonly element = el('aside', { 'aria-label': 'Settings' });
   private readonly panels = new Map<PanelName, Panel>();
   private readonly bindings: ((s: Settings) => void)[] = [];
-  private readonly controls: Control<never>[] = [];
   private readonly gizmoButtons = new Map<string, HTMLButtonElement>();
   private readonly meshOnly: HTMLButtonElement[] = [];
-  readonly playStatus = el('p', { class: 'hint', role: 'status', hidden: true });
 
   constructor(private readonly store: Store, private readonly actions: PanelActions, catalog: Catalog) {
     for (const name of Object.keys(kTitles) as PanelName[]) this.addPanel(name);
@@ -44,12 +42,16 @@ export class Panels {
     this.fillSmoothing();
     this.fillEmbedding();
     this.fillSimulation();
+    this.element.append(el('p', { class: 'about' }, `tetsoup ${catalog.version} · `,
+      el('a', { href: 'licenses.txt', target: '_blank' }, 'Licences')));
     this.show(store.now);
   }
 
   private addPanel(name: PanelName): void {
     const brief = el('span', { class: 'brief' });
-    const report = el('ul', { class: 'report', 'data-report': name, 'aria-live': 'polite' });
+    // What a slider did is said by the status line; only answers to a button are said here.
+    const answers = name === 'embedding' || name === 'simulation';
+    const report = el('ul', { class: 'report', 'data-report': name, 'aria-live': answers ? 'polite' : 'off' });
     const body = el('div', { class: 'body' }, report);
     const element = el('details', { class: 'panel', id: `panel-${name}`, open: true },
       el('summary', {}, kTitles[name], brief), body);
@@ -65,18 +67,17 @@ export class Panels {
   /** A control that shows one setting and changes it. */
   private bind<T>(control: Control<T>, read: (s: Settings) => T): HTMLElement {
     this.bindings.push((s) => control.show(read(s)));
-    this.controls.push(control as unknown as Control<never>);
     return control.element;
   }
 
-  private number(key: 'voxels' | 'tets' | 'rho' | 'passes' | 'strength' | 'damage',
+  private number(key: 'voxels' | 'tets' | 'rho' | 'passes' | 'damage',
                  o: { label: string; hint: string; min: number; max: number; step: number; most?: number; unit?: string; logarithmic?: boolean }): HTMLElement {
     return this.bind(slider({ id: key, ...o, change: (value) => this.store.set({ [key]: value }), done: () => this.store.endStep() }),
       (s) => s[key]);
   }
 
   private fillSoup(catalog: Catalog): void {
-    const samples: (readonly [string, string])[] = [['', 'Choose a sample …'], ...catalog.samples.map((s) => [s.name, title(s.name)] as const)];
+    const samples: (readonly [string, string])[] = [['', 'Choose a sample …'], ...catalog.samples.map((s) => [s.name, words.title(s.name)] as const)];
     const pick = this.bind(select({ id: 'sample', label: 'Sample', hint: 'Shapes made by formula, to try things with.', choices: samples,
       change: (name) => name && this.actions.sample(name) }), (s) => s.sample);
     const damage = this.number('damage', { label: 'Damage', unit: '%', min: 0, max: 80, step: 5,
@@ -107,7 +108,7 @@ export class Panels {
 
   /** The k that was chosen automatically, from which a choice by hand begins. */
   private lastK = 0.98;
-  setAutomaticK(k: number): void {
+  private setAutomaticK(k: number): void {
     this.lastK = Number(k.toFixed(3));
     this.show(this.store.now);
   }
@@ -152,11 +153,15 @@ export class Panels {
   }
 
   private fillSmoothing(): void {
+    const strength = slider({ id: 'strength', label: 'Strength', min: 0.1, max: 2, step: 0.1,
+      hint: 'How far a pass moves vertices. Where the boundary is drawn to the shape, the shape decides that.',
+      change: (value) => this.store.set({ strength: value }), done: () => this.store.endStep() });
+    this.bindings.push((s) => strength.enable(s.snap === 'off'));
     this.put('smoothing',
       this.number('passes', { label: 'Passes', min: 0, max: 30, most: 1000, step: 1, hint: 'How often the boundary is smoothed; 0 leaves the lattice as it is.' }),
-      this.number('strength', { label: 'Strength', min: 0.1, max: 2, step: 0.1, hint: 'How far a pass moves vertices.' }),
       this.bind(toggle({ id: 'snap', label: 'Draw to the shape', hint: 'Draws the boundary to the surface of the inside. Off: it is only smoothed, and the lattice’s volume kept.',
-        change: (on) => this.store.set({ snap: on ? 'on' : 'off' }) }), (s) => s.snap === 'on'));
+        change: (on) => this.store.set({ snap: on ? 'on' : 'off' }) }), (s) => s.snap === 'on'),
+      this.bind(strength, (s) => s.strength));
   }
 
   private fillEmbedding(): void {
@@ -170,10 +175,10 @@ export class Panels {
     const stiffness = slider({ id: 'stiffness', label: 'Stiffness', min: 3.7, max: 7, step: 0.1,
       hint: 'Young’s modulus as a power of ten in pascals: 4 is jelly, 6 is rubber. The body is played 1 m high, of the weight of water.',
       change: (value) => this.store.set({ stiffness: value }), done: () => this.store.endStep() });
-    this.bindings.push((s) => (likeness.textContent = `${pascals(10 ** s.stiffness)}: ${likeWhat(10 ** s.stiffness)}`));
+    this.bindings.push((s) => (likeness.textContent = `${words.pascals(10 ** s.stiffness)}: ${words.likeWhat(10 ** s.stiffness)}`));
     const drop = this.need(el('button', { type: 'button', class: 'primary', id: 'drop', onclick: () => this.actions.play(null) }, 'Drop it'));
     const robots = el('button', { type: 'button', id: 'robots', onclick: () => this.actions.play('robots-on-tree') }, 'Robots on a tree');
-    this.put('simulation', el('div', { class: 'row' }, drop, robots), this.bind(stiffness, (s) => s.stiffness), likeness, this.playStatus);
+    this.put('simulation', el('div', { class: 'row' }, drop, robots), this.bind(stiffness, (s) => s.stiffness), likeness);
   }
 
   private need(button: HTMLButtonElement): HTMLButtonElement {
@@ -182,24 +187,36 @@ export class Panels {
     return button;
   }
 
-  /** Whether there is a model to work on, and whether its mesh is finished. */
-  setReady(model: boolean, mesh: boolean): void {
+  /** Whether there is a finished mesh to work on. */
+  setReady(mesh: boolean): void {
     this.meshOnly.forEach((button) => (button.disabled = !mesh));
     this.gizmoButtons.forEach((button) => (button.disabled = !mesh));
-    if (!model) this.panels.forEach((panel) => panel.report.replaceChildren());
+  }
+
+  clear(): void {
+    for (const name of this.panels.keys()) this.report(name, '', []);
   }
 
   show(s: Settings): void {
     this.bindings.forEach((binding) => binding(s));
   }
 
-  report(name: PanelName, brief: string, sentences: readonly Sentence[]): void {
+  /** What came of the soup, and of its mesh as far as there is one. */
+  showReports(soup: SoupReport, report: Report | null): void {
+    const { now } = this.store;
+    this.report('soup', words.count(soup.used_triangles, 'triangle'), words.ofSoup(soup, now.unit));
+    if (!report) return;
+    const { pseudo_volume, lattice, quality } = report;
+    if (pseudo_volume.automatic && now.k === null) this.setAutomaticK(pseudo_volume.k);
+    this.report('volume', `k = ${pseudo_volume.k.toFixed(3)}`, words.ofVolume(report, now));
+    this.report('lattice', words.count(lattice.tet_count, 'tet'), words.ofLattice(report, now));
+    const angles = quality.tet_count ? `${quality.min_dihedral_deg.toFixed(0)}° to ${quality.max_dihedral_deg.toFixed(0)}°` : '';
+    this.report('smoothing', angles, words.ofSmoothing(report));
+  }
+
+  report(name: PanelName, brief: string, sentences: readonly words.Sentence[]): void {
     const panel = this.panels.get(name) as Panel;
     panel.brief.textContent = brief;
     panel.report.replaceChildren(...sentences.map((s) => el('li', { class: s.tone }, s.text)));
   }
-}
-
-function title(name: string): string {
-  return name.charAt(0).toUpperCase() + name.slice(1);
 }

@@ -2,7 +2,7 @@
 import { gradient, kAngleStops, kBandColor, kVoteStops } from '../view/colors';
 import { histogram } from '../view/histogram';
 import type { Look } from '../view/model_view';
-import type { Slice } from '../core/protocol';
+import type { Report, Slice } from '../core/protocol';
 import type { View } from '../state';
 import { choice, type Control, slider, toggle } from './controls';
 import { el, icon } from './dom';
@@ -31,7 +31,7 @@ export class Viewport {
   private readonly views: Control<View>;
   private readonly viewBar: HTMLElement;
   private readonly playBar: HTMLElement;
-  readonly pauseButton: HTMLButtonElement;
+  private readonly pauseButton: HTMLButtonElement;
   private readonly cutTool: HTMLElement;
   private readonly clipTool: HTMLElement;
   private readonly clipRows: HTMLElement;
@@ -42,16 +42,17 @@ export class Viewport {
     this.views = choice({ id: 'view', label: 'View', hint: 'What is shown; also keys 1 to 5.', choices: views, change: (view) => actions.view(view) });
     this.viewBar = strip(this.views.element);
     const fit = el('button', { type: 'button', class: 'icon', title: 'Fit to view (F)', 'aria-label': 'Fit to view', onclick: () => actions.fit() }, icon('fit'));
-    this.pauseButton = el('button', { type: 'button', id: 'pause', onclick: () => actions.pause() }, icon('pause'), 'Pause');
+    this.pauseButton = el('button', { type: 'button', id: 'pause', onclick: () => actions.pause() });
+    this.setPaused(false);
     const shown = choice({ id: 'play-view', label: 'Shown while playing', hint: '', choices: [['surface', 'Surface'], ['tets', 'Tets']],
       change: (what: string) => {
         this.playTets = what === 'tets';
         actions.look();
       } });
     shown.show('surface');
-    this.playBar = el('div', { class: 'row', hidden: true }, strip(shown.element), this.pauseButton,
-      el('button', { type: 'button', id: 'reset', onclick: () => actions.reset() }, icon('reset'), 'Reset'),
-      el('button', { type: 'button', id: 'back', onclick: () => actions.stop() }, icon('close'), 'Back'));
+    this.playBar = el('div', { class: 'play-bar', hidden: true }, strip(shown.element), this.pauseButton,
+      el('button', { type: 'button', id: 'reset', 'aria-label': 'Reset', onclick: () => actions.reset() }, ...pictured('reset', 'Reset')),
+      el('button', { type: 'button', id: 'back', 'aria-label': 'Back', onclick: () => actions.stop() }, ...pictured('close', 'Back')));
     this.cutTool = this.makeCutTool();
     [this.clipTool, this.clipRows] = this.makeClipTool();
     this.element = el('main', { class: 'without-model', 'aria-label': 'Model' }, this.canvas,
@@ -89,7 +90,7 @@ export class Viewport {
     };
     const change = (part: Partial<Look['clip']>) => {
       Object.assign(look.clip, part);
-      rows.hidden = !look.clip.on;
+      this.refresh();
       this.actions.look();
     };
     const on = toggle({ id: 'clip', label: 'Cut away', hint: 'Hides whole tets on one side of a plane; teal faces lie inside.', change: (value) => change({ on: value }) });
@@ -103,7 +104,7 @@ export class Viewport {
     } }, 'Other side');
     const rows = el('div', { class: 'tool-rows', hidden: true }, el('div', { class: 'line' }, strip(axis.element), flip), bare(position.element));
     const tool = el('div', { class: 'card tool', hidden: true },
-      el('div', { class: 'row' }, flag('edges', 'Edges', 'Draw the edges of tets and triangles'), flag('quality', 'Quality', 'Colour each tet by its smallest angle'),
+      el('div', { class: 'flags' }, flag('edges', 'Edges', 'Draw the edges of tets and triangles'), flag('quality', 'Quality', 'Colour each tet by its smallest angle'),
         flag('ghost', 'Model', 'Show the model around the tets')), on.element, rows);
     return [tool, rows];
   }
@@ -120,12 +121,15 @@ export class Viewport {
     const model = !this.element.classList.contains('without-model');
     this.cutTool.hidden = playing || !model || view !== 'votes';
     this.clipTool.hidden = playing || !model || view === 'votes';
+    (this.flags.get('edges') as HTMLElement).hidden = view === 'surface' && !this.look.clip.on;
     (this.flags.get('quality') as HTMLElement).hidden = view !== 'tets' && view !== 'lattice';
     (this.flags.get('ghost') as HTMLElement).hidden = view !== 'tets' && view !== 'lattice';
     this.clipRows.hidden = !this.look.clip.on;
   }
 
   setModel(present: boolean): void {
+    // On a phone the button that brought the model may be far down.
+    if (present && this.element.classList.contains('without-model')) scrollTo(0, 0);
     this.element.classList.toggle('without-model', !present);
     this.refresh();
   }
@@ -133,21 +137,35 @@ export class Viewport {
   setPlaying(playing: boolean): void {
     this.playBar.hidden = !playing;
     this.viewBar.hidden = playing;
+    this.status.setAttribute('aria-live', playing ? 'off' : 'polite');
     this.refresh();
     if (playing) this.legend.hidden = true;
   }
 
   setPaused(paused: boolean): void {
-    this.pauseButton.replaceChildren(icon(paused ? 'play' : 'pause'), paused ? 'Go on' : 'Pause');
+    const name = paused ? 'Go on' : 'Pause';
+    this.pauseButton.setAttribute('aria-label', name);
+    this.pauseButton.replaceChildren(...pictured(paused ? 'play' : 'pause', name));
   }
 
   setStatus(text: string, busy = false): void {
     this.status.textContent = text;
     this.status.hidden = !text;
     this.status.classList.toggle('busy', busy);
+    // Screen readers say what came of it, not every step on the way.
+    this.status.setAttribute('aria-busy', String(busy));
   }
 
-  showVotes(slice: Slice | null, dark: boolean): void {
+  /** What the colours of the view stand for; nothing without a report. */
+  showLegend(report: Report | null, slice: Slice | null, dark: boolean): void {
+    const { view, quality } = this.look;
+    if (report && view === 'votes') this.showVotes(slice, dark);
+    else if (report && view === 'tets') this.showAngles(report.quality.dihedral_histogram, quality);
+    else if (report && view === 'lattice') this.showAngles(report.lattice_quality.dihedral_histogram, quality);
+    else this.hideLegend();
+  }
+
+  private showVotes(slice: Slice | null, dark: boolean): void {
     this.legend.hidden = slice === null;
     this.legend.classList.remove('histogram-only');
     if (!slice) return;
@@ -165,16 +183,22 @@ export class Viewport {
     // On small screens there is room for a scale, but not for a histogram alone.
     this.legend.classList.toggle('histogram-only', !byQuality);
     const scale = [
-      el('strong', {}, 'Smallest angle of each tet'),
+      el('strong', {}, 'Smallest of each tet'),
       el('div', { class: 'scale', style: `background: ${gradient(kAngleStops)}` }),
       el('div', { class: 'ends' }, ...kAngleStops.map(([at]) => el('span', {}, `${at}°`))),
     ];
-    this.legend.replaceChildren(el('strong', {}, 'Angles between faces'), histogram(bins), ...(byQuality ? scale : []));
+    this.legend.replaceChildren(el('div', { class: 'part' }, el('strong', {}, 'Angles between faces'), histogram(bins)),
+      ...(byQuality ? [el('div', { class: 'part' }, ...scale)] : []));
   }
 
   hideLegend(): void {
     this.legend.hidden = true;
   }
+}
+
+/** A picture and a word, of which a phone shows the picture. */
+function pictured(name: string, word: string): Node[] {
+  return [icon(name), el('span', { class: 'wide' }, word)];
 }
 
 /** A choice without its label: the group says it to those who cannot see. */

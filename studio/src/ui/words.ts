@@ -1,6 +1,6 @@
 // Reports in plain words. Every sentence says what is, and where something can be done about it, what.
 import { kUnits, type Settings } from '../state';
-import type { EmbedReport, Frame, Report, SoupReport } from '../core/protocol';
+import type { Box, EmbedReport, PlayStart, Report, SoupReport } from '../core/protocol';
 
 export type Tone = 'plain' | 'good' | 'watch';
 export interface Sentence {
@@ -9,6 +9,11 @@ export interface Sentence {
 }
 
 const say = (text: string, tone: Tone = 'plain'): Sentence => ({ text, tone });
+
+/** A sample's name at the beginning of a line. */
+export function title(name: string): string {
+  return name.charAt(0).toUpperCase() + name.slice(1);
+}
 
 export function count(n: number, one: string, many = one + 's'): string {
   return `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
@@ -27,13 +32,20 @@ export function length(value: number, unit: Unit): string {
   return `${Number((metres * scale).toPrecision(2)).toLocaleString('en')} ${name}`;
 }
 
+/** Lengths along x, y and z in the unit that suits the longest. */
+function extents(box: Box, unit: Unit): string {
+  const all = box.hi.map((hi, i) => hi - box.lo[i]);
+  const [, name] = length(Math.max(...all), unit).split(' ');
+  const scale = unit === 'own' ? 1 : kUnits[unit].metres * ({ m: 1, cm: 100, mm: 1000 }[name] ?? 1);
+  return all.map((x) => Number((x * scale).toPrecision(2)).toLocaleString('en')).join(' × ') + (unit === 'own' ? '' : `\u00a0${name}`);
+}
+
 export function milliseconds(ms: number): string {
   return ms < 10 ? `${ms.toFixed(1)} ms` : ms < 2000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`;
 }
 
 export function ofSoup(r: SoupReport, unit: Unit): Sentence[] {
-  const size = r.box.hi.map((hi, i) => length(hi - r.box.lo[i], unit)).join(' × ');
-  const said = [say(`${count(r.used_triangles, 'triangle')}, ${size}.`)];
+  const said = [say(`${count(r.used_triangles, 'triangle')}, ${extents(r.box, unit)}.`)];
   if (r.class === 'empty') return [say('There is no usable triangle in this file. Choose another one.', 'watch')];
   if (r.class === 'closed') said.push(say('Closed: every edge has two triangles.', 'good'));
   if (r.boundary_edges) said.push(say(`${count(r.boundary_edges, 'open edge')}: holes are bridged, nothing to repair.`));
@@ -94,8 +106,12 @@ export function ofEmbedding(r: EmbedReport, unit: Unit): Sentence[] {
   return said;
 }
 
-export function ofPlay(frame: Frame, rate: number, drawing: number, simulating: number): string {
-  return `${frame.time.toFixed(1)} s · ${Math.round(rate)} frames/s · simulating ${milliseconds(simulating)} · drawing ${milliseconds(drawing)} a frame`;
+export function ofPlay(start: PlayStart): Sentence[] {
+  const said = [say(`${start.title}: ${count(start.tetCount, 'tet')}. Drag a body with the mouse or a finger to pull it.`)];
+  const drawn = [...start.bodies, ...start.obstacles].reduce((sum, skin) => sum + skin.triangles.length / 3, 0);
+  if (drawn < start.triangleCount)
+    said.push(say(`No graphics card draws for this page, so ${drawn.toLocaleString('en')} of ${count(start.triangleCount, 'triangle')} are drawn. Nothing else changes.`));
+  return said;
 }
 
 export function pascals(young: number): string {
@@ -111,7 +127,7 @@ export function likeWhat(young: number): string {
 export function ofError(message: string, status: number): string {
   if (/memory|too many voxels|voxels fit/i.test(message)) return `Too many voxels for this page's memory. ${sentence(message)} Choose fewer voxels.`;
   if (status === 4) return 'The memory of this page is used up. Choose fewer voxels or tets, or reload the page.';
-  if (status === 2) return `This file cannot be read. ${sentence(message)} Export it again as OBJ, STL, PLY, OFF or GLB.`;
+  if (status === 2) return `This file cannot be read: ${message.trim().replace(/\.?$/, '.')} Export it again as OBJ, STL, PLY, OFF or GLB.`;
   if (status === 5) return `Something went wrong inside tetsoup: ${sentence(message)} Reload the page; if it happens again, please report it.`;
   return sentence(message.replace(/^mesh\./, ''));
 }
@@ -119,6 +135,12 @@ export function ofError(message: string, status: number): string {
 function sentence(text: string): string {
   const trimmed = text.trim();
   return trimmed.charAt(0).toUpperCase() + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? '' : '.');
+}
+
+/** A stage that tries several ways is at its end several times, so that ends are not said. */
+export function ofProgress(stage: string, fraction: number): string {
+  const percent = Math.round(100 * fraction);
+  return stageName(stage) + (percent > 0 && percent < 100 ? ` ${percent} %` : '');
 }
 
 const kStageNames: Record<string, string> = {

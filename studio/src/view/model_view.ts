@@ -1,5 +1,5 @@
 // All that can be seen of a soup and its mesh, and which of it is shown.
-import { AxesHelper, Box3, BoxGeometry, EdgesGeometry, Euler, Group, LineBasicMaterial, LineSegments, Vector3 } from 'three';
+import { Box3, BoxGeometry, EdgesGeometry, Euler, Group, LineBasicMaterial, LineSegments, Vector3 } from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
 import type { Box, MeshResult, Slice, Surface, Tets, Vec3 } from '../core/protocol';
 import type { View } from '../state';
@@ -20,6 +20,8 @@ export interface Look {
 const kGhostOpacity = 0.16;
 /** Of the box that stands for the lattice's frame, in cells. */
 const kFrameCells = 2;
+/** Of x, y, z, and of the one that is held. */
+const kAxisColors = ['#c2410c', '#4d7c0f', '#1d4ed8', '#e07b28'] as const;
 
 export class ModelView {
   readonly soup = new SurfaceLayer();
@@ -37,11 +39,13 @@ export class ModelView {
 
   constructor(private readonly stage: Stage, onFrame: (translate: Vec3, rotate: Vec3) => void, onFrameDone: () => void) {
     stage.model.add(this.soup, this.ghost, this.lattice, this.final, this.slice, this.frame);
+    // Seen through the model, in whose middle it is.
     this.frame.add(new LineSegments(new EdgesGeometry(new BoxGeometry(kFrameCells, kFrameCells, kFrameCells)),
-      new LineBasicMaterial({ color: '#e07b28' })), new AxesHelper(kFrameCells));
+      new LineBasicMaterial({ color: '#e07b28', depthTest: false, transparent: true })));
     this.gizmo = new TransformControls(stage.camera, stage.renderer.domElement);
     this.gizmo.setSpace('local');
     this.gizmo.size = 0.9;
+    this.gizmo.setColors(...kAxisColors);
     this.gizmo.addEventListener('change', () => stage.draw());
     this.gizmo.addEventListener('dragging-changed', (event) => {
       stage.controls.enabled = !event.value;
@@ -108,7 +112,7 @@ export class ModelView {
     this.lattice.visible = mesh && view === 'lattice';
     this.final.visible = mesh && (view === 'tets' || (view === 'surface' && clip !== null));
     for (const layer of [this.lattice, this.final]) {
-      layer.setLook({ edges: look.edges || view === 'surface', faces: true, quality: look.quality });
+      layer.setLook({ edges: look.edges, quality: look.quality && view !== 'surface', opened: view === 'surface' });
       layer.setClip(clip);
     }
     this.updateFrame(visible);

@@ -30,8 +30,6 @@ export class PlayView extends Group {
   private obstacles: SurfaceLayer[] = [];
   private grid: GridHelper | null = null;
   private showTets = false;
-  private quality = false;
-  private edges = false;
   private pulling: { plane: Plane; body: number; vertex: number } | null = null;
   private readonly rope = new Line(new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(6), 3)), new LineBasicMaterial());
   private readonly target = new Vector3();
@@ -59,6 +57,7 @@ export class PlayView extends Group {
     this.obstacles = start.obstacles.map((obstacle) => {
       const layer = new SurfaceLayer();
       layer.set(obstacle.vertices, obstacle.triangles);
+      layer.setOutward(obstacle.outward);
       this.add(layer);
       return layer;
     });
@@ -68,7 +67,10 @@ export class PlayView extends Group {
   }
 
   empty(): void {
-    for (const child of [...this.obstacles, ...this.bodies.flatMap((b) => [b.surface, b.tets])]) child.removeFromParent();
+    for (const layer of [...this.obstacles, ...this.bodies.flatMap((b) => [b.surface, b.tets])]) {
+      layer.removeFromParent();
+      layer.release();
+    }
     this.bodies = [];
     this.obstacles = [];
     this.visible = false;
@@ -88,17 +90,18 @@ export class PlayView extends Group {
     if (this.stage.scene.fog) this.stage.scene.fog.color.set(palette.background);
     this.rope.material.color.set(palette.accent);
     this.grid?.removeFromParent();
+    this.grid?.dispose();
     this.grid = new GridHelper(2 * kGround, (2 * kGround) / kLineEvery, palette.grid, palette.grid);
     this.grid.rotation.x = Math.PI / 2;
     this.add(this.grid);
   }
 
-  setLook(tets: boolean, edges: boolean, quality: boolean): void {
-    [this.showTets, this.edges, this.quality] = [tets, edges, quality];
+  setLook(tets: boolean): void {
+    this.showTets = tets;
     this.bodies.forEach((b) => {
       b.surface.visible = !tets;
       b.tets.visible = tets;
-      b.tets.setLook({ edges, faces: true, quality });
+      b.tets.setLook({ edges: true, quality: false, opened: false });
       if (tets && b.positions.length) b.tets.move(b.positions);
     });
     this.stage.draw();
@@ -111,6 +114,7 @@ export class PlayView extends Group {
       const shape = body.surface.userData.shape as PlayStart['bodies'][number];
       if (!body.positions.length) {
         body.surface.set(moved.vertices, shape.triangles);
+        body.surface.setOutward(shape.outward);
         body.tets.set({ vertices: moved.positions, tets: shape.tets, angles: null });
       }
       body.positions = moved.positions;
@@ -119,11 +123,16 @@ export class PlayView extends Group {
     });
     if (!this.fitted) {
       this.fitted = true;
-      this.setLook(this.showTets, this.edges, this.quality);
+      this.setLook(this.showTets);
       this.fit();
     }
     this.drawRope();
     this.stage.draw();
+  }
+
+  boxOfFirst(): number[] {
+    const box = new Box3().setFromArray(this.bodies[0]?.positions ?? []);
+    return [...box.min.toArray(), ...box.max.toArray()];
   }
 
   fit(): void {
@@ -184,6 +193,7 @@ export class PlayView extends Group {
   private pick(x: number, y: number): { body: number; vertex: number; point: Vector3 } | null {
     const meshes = this.bodies.map((b) => b.surface.mesh);
     // Hidden surfaces can be pulled as well: the tets are drawn in their place.
+    meshes.forEach((mesh) => mesh.geometry.computeBoundingSphere());
     const hit = this.stage.rayAt(x, y).intersectObjects(meshes, false)[0];
     if (!hit) return null;
     const body = meshes.indexOf(hit.object as (typeof meshes)[number]);

@@ -11,10 +11,18 @@ const kFieldOfView = 32;
 const kFirstLook = new Vector3(0.62, -1, 0.42);
 const kMargin = 1.12;
 const kLongestDraw = 2000;
+/** Pixels drawn for one of the page, along a side. */
+const kMostPixels = 2;
+/** Where a processor draws, a picture that stays for so many milliseconds is drawn once more, of finer pixels. */
+const kRest = 200;
+const kFine = 2;
 
 function drawsInSoftware(): boolean {
   const gl = document.createElement('canvas').getContext('webgl2');
-  const name = String(gl?.getParameter(gl.RENDERER) ?? '');
+  let name = String(gl?.getParameter(gl.RENDERER) ?? '');
+  // Who draws is said by an extension only in browsers of one family; the others deprecate it.
+  const info = name === 'WebKit WebGL' ? gl?.getExtension('WEBGL_debug_renderer_info') : null;
+  if (info) name = String(gl?.getParameter(info.UNMASKED_RENDERER_WEBGL));
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
@@ -26,16 +34,18 @@ export class Stage {
   readonly camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 1000);
   readonly controls: OrbitControls;
   readonly renderer: WebGLRenderer;
+  readonly drawnBy = drawsInSoftware() ? 'processor' : 'gpu';
   palette: Palette = kLight;
   /** From the call to the finished picture, as the last one that was waited for took. */
   drawMilliseconds = 0;
   private readonly light = new DirectionalLight(0xffffff, 2.0);
   private wanted = false;
+  private resting = 0;
   private afterDraw: (() => void)[] = [];
 
   constructor(private readonly host: HTMLElement, label: string) {
-    // Where a processor draws, smooth edges cost more than all the rest.
-    this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware() });
+    // Where a processor draws, smooth edges cost as much as all the rest.
+    this.renderer = new WebGLRenderer({ antialias: this.drawnBy === 'gpu' });
     this.renderer.localClippingEnabled = true;
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
@@ -70,7 +80,6 @@ export class Stage {
   resize(): void {
     const { clientWidth, clientHeight } = this.host;
     if (!clientWidth || !clientHeight) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
@@ -126,7 +135,9 @@ export class Stage {
 
   drawNow(): void {
     const since = performance.now();
-    this.renderer.render(this.scene, this.camera);
+    this.render(1);
+    clearTimeout(this.resting);
+    if (this.drawnBy === 'processor') this.resting = setTimeout(() => this.render(kFine), kRest);
     const done = this.afterDraw;
     this.afterDraw = [];
     if (!done.length) return;
@@ -144,6 +155,13 @@ export class Stage {
     setTimeout(look, 0);
   }
 
+  /** @param fineness  Pixels drawn for each that is shown, along a side. */
+  private render(fineness: number): void {
+    const ratio = Math.min(devicePixelRatio * fineness, kMostPixels);
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+    this.renderer.render(this.scene, this.camera);
+  }
+
   rayAt(x: number, y: number): Raycaster {
     const box = this.renderer.domElement.getBoundingClientRect();
     const ray = new Raycaster();
@@ -153,7 +171,7 @@ export class Stage {
 
   picture(): Promise<Blob | null> {
     // In one go: what was drawn is gone once the browser has shown it.
-    this.renderer.render(this.scene, this.camera);
+    this.render(this.drawnBy === 'processor' ? kFine : 1);
     return new Promise((done) => this.renderer.domElement.toBlob(done, 'image/png'));
   }
 

@@ -1,8 +1,9 @@
 // Triangles: the soup as it came, the surface that hangs on the tets, what bodies fall onto.
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Plane,
+  BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Plane,
   Vector3, WireframeGeometry,
 } from 'three';
+import { room } from './room';
 import type { Clip } from './tet_layer';
 
 export class SurfaceLayer extends Group {
@@ -18,24 +19,42 @@ export class SurfaceLayer extends Group {
   }
 
   set(vertices: Float32Array, triangles: Uint32Array): void {
-    this.mesh.geometry.dispose();
+    this.release();
     this.mesh.geometry = new BufferGeometry();
     this.mesh.geometry.setAttribute('position', new BufferAttribute(vertices, 3));
     // Files may hold any index; those that point nowhere are not drawn.
     const count = vertices.length / 3;
     const sound = triangles.every((v) => v < count) ? triangles : kept(triangles, count);
     this.mesh.geometry.setIndex(new BufferAttribute(sound, 1));
-    this.wires?.removeFromParent();
-    this.wires = null;
     this.setLook(this.wired);
   }
 
+  /** The same triangles elsewhere, smooth where there are normals. */
   move(vertices: Float32Array, normals: Float32Array): void {
     const { geometry } = this.mesh;
-    geometry.setAttribute('position', new BufferAttribute(vertices, 3));
-    this.material.flatShading = normals.length === 0;
-    if (normals.length) geometry.setAttribute('normal', new BufferAttribute(normals, 3));
-    geometry.computeBoundingSphere();
+    room(geometry, 'position', vertices.length).set(vertices);
+    if (normals.length) room(geometry, 'normal', normals.length).set(normals);
+    const flat = normals.length === 0;
+    if (this.material.flatShading !== flat) {
+      this.material.flatShading = flat;
+      this.material.needsUpdate = true;
+    }
+    // Where it is now would have to be found anew for every picture.
+    this.mesh.frustumCulled = false;
+  }
+
+  /** Of triangles that all face outwards, the backs are never seen. */
+  setOutward(outward: boolean): void {
+    this.material.side = outward ? FrontSide : DoubleSide;
+    this.material.needsUpdate = true;
+  }
+
+  /** Gives back what it has on the GPU. */
+  release(): void {
+    this.mesh.geometry.dispose();
+    this.wires?.geometry.dispose();
+    this.wires?.removeFromParent();
+    this.wires = null;
   }
 
   setColors(face: string, edge: string, opacity = 1): void {

@@ -35,6 +35,12 @@ export class TetFaces {
     return [this.tets[first + a], this.tets[first + b], this.tets[first + c]];
   }
 
+  cornersOf(faces: Uint32Array): Uint32Array {
+    const corners = new Uint32Array(3 * faces.length);
+    faces.forEach((face, i) => corners.set(this.corners(face), 3 * i));
+    return corners;
+  }
+
   /** Faces to be seen, and whether each is one that the cut laid open. */
   visible(stands: (tet: number) => boolean): { faces: Uint32Array; cut: Uint8Array } {
     const here = new Uint8Array(this.count);

@@ -1,8 +1,9 @@
 // A tet mesh as it is seen: flat faces, their edges, cut by a plane, coloured plainly or by each tet's smallest angle.
 import {
-  BufferAttribute, BufferGeometry, Color, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial,
+  BufferGeometry, Color, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial,
 } from 'three';
 import { angleColor, type Palette } from './colors';
+import { room, setCorners } from './room';
 import { TetFaces } from './tet_faces';
 
 export interface TetInput {
@@ -24,16 +25,19 @@ export class TetLayer extends Group {
   private readonly edges = new LineSegments(new BufferGeometry(), this.edgeMaterial);
   private input: TetInput | null = null;
   private topology: TetFaces | null = null;
-  private faces = new Uint32Array();
-  private cut = new Uint8Array();
+  private faces: Uint32Array = new Uint32Array();
+  private corners: Uint32Array = new Uint32Array();
+  private cut: Uint8Array = new Uint8Array();
   private clip: Clip | null = null;
   private byQuality = false;
+  private onlyOpened = false;
   private plain = new Color();
   private opened = new Color();
-  visibleTets = 0;
 
   constructor() {
     super();
+    // Both are in the picture nearly always, and to find out whether they are costs more.
+    this.mesh.frustumCulled = this.edges.frustumCulled = false;
     this.add(this.mesh, this.edges);
   }
 
@@ -50,10 +54,13 @@ export class TetLayer extends Group {
     this.paint();
   }
 
-  setLook(look: { edges: boolean; faces: boolean; quality: boolean }): void {
+  /** @param look.opened  Only the faces that the cut laid open, as where a surface is drawn around them. */
+  setLook(look: { edges: boolean; quality: boolean; opened: boolean }): void {
     this.edges.visible = look.edges;
-    this.mesh.visible = look.faces;
-    this.edgeMaterial.opacity = look.faces ? 0.55 : 0.8;
+    if (this.onlyOpened !== look.opened) {
+      this.onlyOpened = look.opened;
+      this.cutAway();
+    }
     if (this.byQuality === look.quality) return;
     this.byQuality = look.quality;
     this.paint();
@@ -70,54 +77,57 @@ export class TetLayer extends Group {
     if (!input) return;
     this.topology ??= new TetFaces(input.tets, input.vertices.length / 3);
     const { tets, vertices } = input;
-    let shown = 0;
     const stands = (tet: number): boolean => {
-      if (!clip) return ++shown > 0;
+      if (!clip) return true;
       let sum = 0;
       for (let i = 0; i < 4; ++i) sum += vertices[3 * tets[4 * tet + i] + clip.axis];
-      const away = clip.sign * (sum / 4 - clip.at) > 0;
-      if (!away) ++shown;
-      return !away;
+      return clip.sign * (sum / 4 - clip.at) <= 0;
     };
-    ({ faces: this.faces, cut: this.cut } = this.topology.visible(stands) as { faces: Uint32Array<ArrayBuffer>; cut: Uint8Array<ArrayBuffer> });
-    this.visibleTets = shown;
-    this.place(vertices);
+    ({ faces: this.faces, cut: this.cut } = this.topology.visible(stands));
+    if (this.onlyOpened) {
+      this.faces = this.faces.filter((_, i) => this.cut[i]);
+      this.cut = this.cut.filter((cut) => cut);
+    }
+    this.corners = this.topology.cornersOf(this.faces);
+    this.place(input.vertices);
     this.paint();
-    this.drawEdges();
+    setCorners(this.edges.geometry, this.findEdges());
   }
 
   /** Moves the vertices; faces and colours stay. */
   move(vertices: Float32Array): void {
     this.place(vertices);
-    this.drawEdges(vertices);
   }
 
+  release(): void {
+    this.mesh.geometry.dispose();
+    this.edges.geometry.dispose();
+  }
+
+  /** The faces that are seen, each with corners of its own, for it has a normal and a colour of its own. */
   private place(p: Float32Array): void {
-    const count = this.faces.length;
-    const positions = new Float32Array(9 * count);
-    const normals = new Float32Array(9 * count);
-    for (let i = 0; i < count; ++i) {
-      const [a, b, c] = (this.topology as TetFaces).corners(this.faces[i]).map((v) => 3 * v);
+    const { geometry } = this.mesh;
+    const { faces, corners } = this;
+    const positions = room(geometry, 'position', 3 * corners.length);
+    const normals = room(geometry, 'normal', 3 * corners.length);
+    for (let i = 0; i < faces.length; ++i) {
+      const [a, b, c] = [3 * corners[3 * i], 3 * corners[3 * i + 1], 3 * corners[3 * i + 2]];
       const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
       const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
-      let [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+      const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
       const size = Math.hypot(nx, ny, nz) || 1;
-      [nx, ny, nz] = [nx / size, ny / size, nz / size];
-      [a, b, c].forEach((from, corner) => {
-        const to = 9 * i + 3 * corner;
-        for (let axis = 0; axis < 3; ++axis) positions[to + axis] = p[from + axis];
-        normals.set([nx, ny, nz], to);
-      });
+      for (let corner = 0; corner < 3; ++corner) {
+        const [from, to] = [3 * corners[3 * i + corner], 9 * i + 3 * corner];
+        [positions[to], positions[to + 1], positions[to + 2]] = [p[from], p[from + 1], p[from + 2]];
+        [normals[to], normals[to + 1], normals[to + 2]] = [nx / size, ny / size, nz / size];
+      }
     }
-    const { geometry } = this.mesh;
-    geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    geometry.setAttribute('normal', new BufferAttribute(normals, 3));
-    if (count) geometry.computeBoundingSphere();
+    room(this.edges.geometry, 'position', p.length).set(p);
   }
 
   private paint(): void {
     const count = this.faces.length;
-    const colors = new Float32Array(9 * count);
+    const colors = room(this.mesh.geometry, 'color', 9 * count);
     const color = new Color();
     const angles = this.byQuality ? this.input?.angles : null;
     for (let i = 0; i < count; ++i) {
@@ -125,20 +135,21 @@ export class TetLayer extends Group {
       else color.copy(this.cut[i] ? this.opened : this.plain);
       for (let corner = 0; corner < 3; ++corner) color.toArray(colors, 9 * i + 3 * corner);
     }
-    this.mesh.geometry.setAttribute('color', new BufferAttribute(colors, 3));
   }
 
-  private drawEdges(p = this.input?.vertices ?? new Float32Array()): void {
+  private findEdges(): Uint32Array {
     const ends: number[] = [];
-    for (const face of this.faces) {
-      const corners = (this.topology as TetFaces).corners(face);
-      for (let i = 0; i < 3; ++i) {
-        const [a, b] = [corners[i], corners[(i + 1) % 3]];
-        // The faces that are seen close up to a surface, in which every edge comes once in each direction.
-        if (a < b) ends.push(p[3 * a], p[3 * a + 1], p[3 * a + 2], p[3 * b], p[3 * b + 1], p[3 * b + 2]);
-      }
+    const { corners } = this;
+    const single = new Set<number>();
+    const count = (this.input?.vertices.length ?? 0) / 3;
+    for (let i = 0; i < corners.length; ++i) {
+      const [a, b] = [corners[i], corners[i % 3 === 2 ? i - 2 : i + 1]];
+      // The faces that are seen close up to a surface, in which every edge comes once in each direction.
+      if (a < b) ends.push(a, b);
+      // Those that a cut laid open have a rim, whose edges come in one direction only.
+      if (this.onlyOpened && !single.delete(b * count + a)) single.add(a * count + b);
     }
-    this.edges.geometry.setAttribute('position', new BufferAttribute(new Float32Array(ends), 3));
-    if (ends.length) this.edges.geometry.computeBoundingSphere();
+    for (const edge of single) if (edge % count < edge / count) ends.push(Math.floor(edge / count), edge % count);
+    return new Uint32Array(ends);
   }
 }
