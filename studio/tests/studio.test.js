@@ -85,12 +85,12 @@ test('the mesh follows a slider', { skip: kQuick }, async () => {
     const controls = { voxels: [1 / 3, 1 / 30], k: [0.9, 0.03], tets: [0.565, 0.01], rho: [0.47, 0.06], passes: [0.2, 0.05] };
     for (const [control, [from, step]] of Object.entries(controls)) {
       const times = [];
-      for (const steps of [1, 2, 1, 0, 1, 2, 0]) times.push(Number((await slide(page, control, from + steps * step)).ms));
-      const median = times.sort((a, b) => a - b)[3];
-      said.push(`${control} ${Math.round(median)}`);
+      for (const steps of [1, 2, 1, 0, 1, 2, 0]) times.push(await slide(page, control, from + steps * step));
+      const [median, core] = ['ms', 'core'].map((key) => times.map((time) => Number(time[key])).sort((a, b) => a - b)[3]);
+      said.push(`${control} ${Math.round(median)} (${Math.round(core)})`);
       assert.ok(median < kLongestStep, `${control}: ${median} ms`);
     }
-    console.log(`# milliseconds from a slider to the picture at 96 voxels and 2,000 tets: ${said.join(', ')}`);
+    console.log(`# milliseconds from a slider to the picture (of them the core) at 96 voxels and 2,000 tets: ${said.join(', ')}`);
   });
 });
 
