@@ -96,7 +96,7 @@ export class App {
     switch (reply.type) {
       case 'ready': return this.onReady(reply.catalog);
       case 'fatal': return this.notice.complain(`The mesher could not be started: ${reply.message}. It needs a browser from 2022 or later, and a page served over http.`);
-      case 'soup': return this.source.isWanted(reply.job) ? this.onSoup(reply.surface, reply.report) : undefined;
+      case 'soup': return this.source.asks(reply.job) ? this.onSoup(reply.surface, reply.report) : undefined;
       case 'mesh': return reply.job === this.meshJob ? this.onMesh(reply.result, reply.done) : undefined;
       case 'slice': return reply.job === this.sliceJob ? this.showSlice(reply.slice) : undefined;
       case 'progress': return this.viewport.setStatus(words.ofProgress(reply.stage, reply.fraction), true);
@@ -186,7 +186,7 @@ export class App {
   private onError(job: number, message: string, status: number): void {
     const text = words.ofError(message, status);
     if (this.exporter?.element.open) return this.exporter.failed(text);
-    const wasSource = this.source.isWanted(job);
+    const wasSource = this.source.isLast(job);
     if (wasSource) this.store.takeBack();
     this.fail(text);
     // A file that could not be read has cancelled the mesh of what is still there.
@@ -200,7 +200,7 @@ export class App {
 
   private fail(text: string): void {
     this.notice.complain(text);
-    this.viewport.setStatus('');
+    this.viewport.setStatus(this.meshDone ? this.finished : '');
     this.root.dataset.state = 'error';
   }
 

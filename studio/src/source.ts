@@ -1,5 +1,6 @@
 // Where the soup comes from: a sample, or a file that was opened. Undo comes back to both.
 import type { Client } from './core/client';
+import type { Source as SoupSource } from './core/protocol';
 import type { Settings, Store } from './state';
 
 /** Formats whose files have y up by custom. */
@@ -10,10 +11,13 @@ function nameOf(s: Settings): string {
 }
 
 export class Source {
-  /** What the soup that is shown was made from. */
+  /** What the soup that is shown was made from, and of which model it is. */
   private shown = nameOf({ sample: '', damage: 0, file: '' } as Settings);
   private model = '';
-  private job = 0;
+  /** The model that was asked for, and the first job that asked for it: while damage moves, each answer is shown. */
+  private asked = '';
+  private first = Infinity;
+  private last = 0;
   /** Handles of files that were opened; their bytes stay on disk. */
   private readonly files = new Map<string, File>();
 
@@ -27,7 +31,8 @@ export class Source {
 
   openFile(file: File): void {
     this.files.set(file.name, file);
-    this.shown = this.model = ''; // Even under the same name it may be another one.
+    // Even under the same name it may be another one.
+    if (file.name === this.store.now.file) this.shown = this.model = this.asked = '';
     const before = this.store.now;
     this.store.set({ file: file.name, sample: '', damage: 0, up: kYUp.test(file.name) ? 'y' : 'z' });
     this.store.endStep();
@@ -39,34 +44,41 @@ export class Source {
     const { sample, damage, file } = this.store.now;
     const wanted = nameOf(this.store.now);
     if (wanted === this.shown) return;
+    if (this.asked !== `${sample}/${file}`) this.first = Infinity;
+    this.asked = `${sample}/${file}`;
     if (!sample && !file) {
       this.client.cancel();
-      this.job = 0;
       this.shown = wanted;
       return this.actions.nothing();
     }
     this.actions.loading(file ? `Reading ${file}` : 'Making the sample');
-    if (sample) {
-      this.job = this.client.ask({ type: 'load', source: { kind: 'sample', name: sample, damage: damage / 100, seed: 1 } });
-      return;
-    }
+    if (sample) return this.ask({ kind: 'sample', name: sample, damage: damage / 100, seed: 1 });
     // Files may be gone by now, and folders can be dropped like files.
     const bytes = await this.files.get(file)?.arrayBuffer().catch(() => null);
     if (nameOf(this.store.now) !== wanted) return;
     if (!bytes) return this.actions.lost(file);
-    this.job = this.client.ask({ type: 'load', source: { kind: 'file', name: file, bytes } }, [bytes]);
+    this.ask({ kind: 'file', name: file, bytes }, [bytes]);
   }
 
-  /** Whether a job was the one that brought what is wanted now. */
-  isWanted(job: number): boolean {
-    return job === this.job;
+  private ask(source: SoupSource, transfer: Transferable[] = []): void {
+    this.last = this.client.ask({ type: 'load', source }, transfer);
+    this.first = Math.min(this.first, this.last);
+  }
+
+  /** Whether a job asked for the model that is wanted now. */
+  asks(job: number): boolean {
+    return job >= this.first;
+  }
+
+  /** Whether a job was the last to ask for a model. */
+  isLast(job: number): boolean {
+    return job === this.last;
   }
 
   /** The soup that was wanted is there. Returns whether it is of another model than the last one. */
   loaded(): boolean {
-    const { sample, file } = this.store.now;
-    const another = this.model !== `${sample}/${file}`;
-    this.model = `${sample}/${file}`;
+    const another = this.model !== this.asked;
+    this.model = this.asked;
     this.shown = nameOf(this.store.now);
     return another;
   }

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import { boxOf, kNarrow, kWide, played, settled, state, Studio } from './browser.js';
+import { atRest, boxOf, kNarrow, kWide, played, settled, state, Studio } from './browser.js';
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 /** Pixels that a finger needs, and that a mouse needs. */
@@ -158,11 +158,11 @@ test('a finger pulls the body that plays', async () => {
   await studio.with('#sample=heart&voxels=48&tets=800', async (page) => {
     await settled(page);
     await page.click('#drop');
-    await played(page, 90);
-    const lying = await boxOf(page);
+    await played(page, 30);
+    const lying = await atRest(page);
     await page.evaluate(() => scrollTo(0, 0));
     const [x, y] = await middleOf(page);
-    const pulled = await finger(page, line([x, y + 20], [0, -120]), 1500);
+    const pulled = await finger(page, line([x, y], [0, -110]), 1500);
     assert.ok(pulled.middle[2] > lying.middle[2] + 0.05, `${lying.middle[2]} to ${pulled.middle[2]} m`);
   }, kNarrow);
 });

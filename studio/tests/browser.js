@@ -122,6 +122,21 @@ export async function boxOf(page) {
   return { middle: [(left + right) / 2, (front + back) / 2, (low + high) / 2], width: right - left, height: high - low };
 }
 
+/** Waits until the first body lies still, and looks at it from near by. */
+export async function atRest(page) {
+  let before = await boxOf(page);
+  for (let i = 0; i < 100; ++i) {
+    await page.waitForTimeout(300);
+    const now = await boxOf(page);
+    const moved = Math.hypot(...now.middle.map((x, axis) => x - before.middle[axis]));
+    before = now;
+    if (moved < 0.002) break;
+  }
+  await page.click('[aria-label="Fit to view"]');
+  await page.waitForTimeout(300);
+  return before;
+}
+
 export async function dropFile(page, path) {
   await page.setInputFiles('input[type=file]', path);
 }

@@ -10,7 +10,7 @@ async function take(name, hash, prepare, size) {
   const page = await studio.page(hash, size);
   if (hash) await settled(page);
   await prepare?.(page);
-  await page.waitForTimeout(700);
+  await page.waitForTimeout(1200);
   await page.screenshot({ path: join(folder, `${name}.jpg`), type: 'jpeg', quality: 80 });
   await page.close();
 }

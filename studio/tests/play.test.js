@@ -1,7 +1,7 @@
 // Bodies that fall, are pulled, and become softer; how fast all that is.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { boxOf, played, push, settled, state, Studio } from './browser.js';
+import { atRest, boxOf, played, push, settled, state, Studio } from './browser.js';
 
 /** Milliseconds that simulating a frame may take: 20 frames a second. */
 const kMostSimulating = 50;
@@ -26,21 +26,20 @@ async function until(page, enough, what) {
 }
 
 test('a body falls, is pulled by the mouse, falls again, and starts anew', async () => {
-  await studio.with('#sample=heart&voxels=64&tets=800', async (page) => {
+  await studio.with('#sample=sphere&voxels=48&tets=800', async (page) => {
     await settled(page);
     await page.click('#drop');
     await played(page, 1);
     const high = (await boxOf(page)).middle[2];
-    const lying = await until(page, (box) => box.middle[2] < high - 0.25, 'it falls');
-    await page.click('[aria-label="Fit to view"]');
-    await page.waitForTimeout(300);
+    await until(page, (box) => box.middle[2] < high - 0.25, 'it falls');
+    const lying = await atRest(page);
     const canvas = await page.locator('.canvas canvas').boundingBox();
     const [x, y] = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
     await page.mouse.move(x, y);
     await page.mouse.down();
-    await page.mouse.move(x, y - 150, { steps: 6 });
+    await page.mouse.move(x, y - 300, { steps: 6 });
     await until(page, (box) => box.middle[2] > lying.middle[2] + 0.1, 'it is pulled up');
-    await page.mouse.move(x + 200, y - 150, { steps: 6 });
+    await page.mouse.move(x + 250, y - 300, { steps: 6 });
     await until(page, (box) => box.middle[0] > lying.middle[0] + 0.1, 'it is pulled aside');
     await page.mouse.up();
     await until(page, (box) => box.middle[2] < lying.middle[2] + 0.05, 'it falls again');

@@ -42,7 +42,7 @@ for (const [size, viewport] of [['1280', kWide], ['390', kNarrow]])
       await prepare?.(page);
       // Times differ from run to run.
       await page.addStyleTag({ content: '.status { visibility: hidden }' });
-      await page.waitForTimeout(700);
+      await page.waitForTimeout(1200);
       const shot = await page.screenshot();
       await page.evaluate(() => localStorage.clear());
       await page.close();

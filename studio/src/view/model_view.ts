@@ -108,12 +108,12 @@ export class ModelView {
     this.soup.setLook(look.edges && view === 'soup');
     this.soup.setClip(view === 'surface' || view === 'soup' ? clip : null);
     this.ghost.visible = visible && this.hasMesh && (view === 'votes' || (look.ghost && (view === 'tets' || view === 'lattice')));
-    this.slice.visible = mesh && view === 'votes';
-    this.lattice.visible = mesh && view === 'lattice';
-    this.final.visible = mesh && (view === 'tets' || (view === 'surface' && clip !== null));
-    for (const layer of [this.lattice, this.final]) {
+    this.slice.show(mesh && view === 'votes');
+    const final = view === 'tets' || (view === 'surface' && clip !== null);
+    for (const [layer, wanted] of [[this.lattice, view === 'lattice'], [this.final, final]] as const) {
       layer.setLook({ edges: look.edges, quality: look.quality && view !== 'surface', opened: view === 'surface' });
       layer.setClip(clip);
+      layer.show(mesh && wanted);
     }
     this.updateFrame(visible);
     this.stage.draw();

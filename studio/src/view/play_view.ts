@@ -100,8 +100,8 @@ export class PlayView extends Group {
     this.showTets = tets;
     this.bodies.forEach((b) => {
       b.surface.visible = !tets;
-      b.tets.visible = tets;
       b.tets.setLook({ edges: true, quality: false, opened: false });
+      b.tets.show(tets);
       if (tets && b.positions.length) b.tets.move(b.positions);
     });
     this.stage.draw();

@@ -11,11 +11,11 @@ const kFieldOfView = 32;
 const kFirstLook = new Vector3(0.62, -1, 0.42);
 const kMargin = 1.12;
 const kLongestDraw = 2000;
-/** Pixels drawn for one of the page, along a side. */
+/** Pixels drawn for one of the page at most, along a side. */
 const kMostPixels = 2;
-/** Where a processor draws, a picture that stays for so many milliseconds is drawn once more, of finer pixels. */
-const kRest = 200;
-const kFine = 2;
+/** Where a processor draws, a picture that stays for so many milliseconds is drawn once more, of at most so many pixels. */
+const kRest = 600;
+const kFinePixels = 4e6;
 
 function drawsInSoftware(): boolean {
   const gl = document.createElement('canvas').getContext('webgl2');
@@ -135,9 +135,9 @@ export class Stage {
 
   drawNow(): void {
     const since = performance.now();
-    this.render(1);
+    this.render(devicePixelRatio);
     clearTimeout(this.resting);
-    if (this.drawnBy === 'processor') this.resting = setTimeout(() => this.render(kFine), kRest);
+    if (this.drawnBy === 'processor') this.resting = setTimeout(() => this.renderFine(), kRest);
     const done = this.afterDraw;
     this.afterDraw = [];
     if (!done.length) return;
@@ -155,11 +155,16 @@ export class Stage {
     setTimeout(look, 0);
   }
 
-  /** @param fineness  Pixels drawn for each that is shown, along a side. */
-  private render(fineness: number): void {
-    const ratio = Math.min(devicePixelRatio * fineness, kMostPixels);
+  /** @param wanted  Pixels drawn for one of the page, along a side. */
+  private render(wanted: number): void {
+    const ratio = Math.min(wanted, kMostPixels);
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
     this.renderer.render(this.scene, this.camera);
+  }
+
+  private renderFine(): void {
+    const { clientWidth, clientHeight } = this.host;
+    this.render(Math.max(devicePixelRatio, Math.sqrt(kFinePixels / (clientWidth * clientHeight + 1))));
   }
 
   rayAt(x: number, y: number): Raycaster {
@@ -171,7 +176,8 @@ export class Stage {
 
   picture(): Promise<Blob | null> {
     // In one go: what was drawn is gone once the browser has shown it.
-    this.render(this.drawnBy === 'processor' ? kFine : 1);
+    if (this.drawnBy === 'processor') this.renderFine();
+    else this.render(devicePixelRatio);
     return new Promise((done) => this.renderer.domElement.toBlob(done, 'image/png'));
   }
 

@@ -31,6 +31,7 @@ export class TetLayer extends Group {
   private clip: Clip | null = null;
   private byQuality = false;
   private onlyOpened = false;
+  private stale = false;
   private plain = new Color();
   private opened = new Color();
 
@@ -39,12 +40,24 @@ export class TetLayer extends Group {
     // Both are in the picture nearly always, and to find out whether they are costs more.
     this.mesh.frustumCulled = this.edges.frustumCulled = false;
     this.add(this.mesh, this.edges);
+    this.visible = false;
   }
 
   set(input: TetInput): void {
     this.input = input;
     this.topology = null;
-    this.cutAway();
+    this.refresh(true);
+  }
+
+  show(visible: boolean): void {
+    this.visible = visible;
+    this.refresh(this.stale);
+  }
+
+  /** What is hidden is brought up to date when it is seen. */
+  private refresh(stale: boolean): void {
+    this.stale = stale && !this.visible;
+    if (stale && this.visible) this.cutAway();
   }
 
   setPalette(palette: Palette, plain: string): void {
@@ -59,7 +72,7 @@ export class TetLayer extends Group {
     this.edges.visible = look.edges;
     if (this.onlyOpened !== look.opened) {
       this.onlyOpened = look.opened;
-      this.cutAway();
+      this.refresh(true);
     }
     if (this.byQuality === look.quality) return;
     this.byQuality = look.quality;
@@ -69,7 +82,7 @@ export class TetLayer extends Group {
   setClip(clip: Clip | null): void {
     if (JSON.stringify(clip) === JSON.stringify(this.clip)) return;
     this.clip = clip;
-    this.cutAway();
+    this.refresh(true);
   }
 
   private cutAway(): void {
@@ -126,6 +139,7 @@ export class TetLayer extends Group {
   }
 
   private paint(): void {
+    if (this.stale) return;
     const count = this.faces.length;
     const colors = room(this.mesh.geometry, 'color', 9 * count);
     const color = new Color();
