@@ -6,7 +6,7 @@ import { repository, settled, state, Studio } from './browser.js';
 
 const kSteps = 9;
 /** The sliders, and where along their way each goes back and forth. */
-const kSliders = [['k', 0.8, 0.95], ['tets', 0.45, 0.5], ['rho', 0.35, 0.55], ['translate-x', 0.3, 0.7], ['passes', 0.3, 0.6], ['strength', 0.6, 0.9]];
+const kSliders = [['k', 0.8, 0.95], ['tets', 0.45, 0.5], ['rho', 0.35, 0.55], ['translate-x', 0.3, 0.7], ['passes', 0.3, 0.6]];
 
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
 
