@@ -46,6 +46,7 @@ def main(name, scene_path, substeps, seconds, budget):
         frames += 1
         judge.look(run.positions(), engines.FRAME)
     simulated = frames
+    judge.wait_for_rest(run.frame, run.positions, engines.FRAME)
     while clock.processor < LEAST and judge.finite:  # the same again
         run = engine(scene, substeps)
         for _ in range(simulated):

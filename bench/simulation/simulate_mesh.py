@@ -70,6 +70,7 @@ def dropped(points, tets, solver, path):
     numbers = {"per_second": clock.seconds / (frames * dt), "step": dt / simulation.report.substeps,
                "left_out": simulation.report.left_out}
     if not explicit:
+        judge.wait_for_rest(lambda: simulation.step(dt), lambda: [simulation.positions(body)], dt)
         numbers |= {key: value for key, value in judge.numbers().items() if key != "softness"}
     return numbers
 
