@@ -1,27 +1,12 @@
 // What a step of each slider takes in the page, from the wish to the finished picture, and of it in the core: a table.
 // On a machine with nothing else to do: node tests/times.js
-import { execFileSync } from 'node:child_process';
-import { join } from 'node:path';
-import { repository, settled, state, Studio } from './browser.js';
+import { settled, slide, Studio } from './browser.js';
 
 const kSteps = 9;
 /** The sliders, and where along their way each goes back and forth. */
 const kSliders = [['k', 0.8, 0.95], ['tets', 0.45, 0.5], ['rho', 0.35, 0.55], ['translate-x', 0.3, 0.7], ['passes', 0.3, 0.6]];
 
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
-
-async function move(page, control, travel) {
-  const { job } = await state(page);
-  await page.locator(`input[type=range][data-control="${control}"]`).evaluate((input, t) => {
-    input.value = String(Number(input.min) + t * (Number(input.max) - Number(input.min)));
-    input.dispatchEvent(new Event('input', { bubbles: true }));
-  }, travel);
-  await page.waitForFunction((before) => {
-    const { dataset } = document.getElementById('app');
-    return dataset.state === 'done' && dataset.job !== before;
-  }, job, { timeout: 60000 });
-  return state(page);
-}
 
 async function measure(isolated) {
   const studio = await Studio.open({ isolated });
@@ -35,7 +20,7 @@ async function measure(isolated) {
     const whole = [];
     const core = [];
     for (let i = 0; i <= kSteps; ++i) {
-      const { ms, core: inside } = await move(page, control, from + ((to - from) * ((i * 4) % (kSteps + 1))) / kSteps);
+      const { ms, core: inside } = await slide(page, control, from + ((to - from) * ((i * 4) % (kSteps + 1))) / kSteps);
       if (i > 0) whole.push(Number(ms)), core.push(Number(inside));
     }
     rows.push([control, median(core).toFixed(0), median(whole).toFixed(0), Math.max(...whole).toFixed(0)]);
@@ -44,7 +29,6 @@ async function measure(isolated) {
   return rows;
 }
 
-console.log(`commit ${execFileSync('git', ['rev-parse', '--short=10', 'HEAD'], { cwd: join(repository) })}`);
 for (const isolated of [true, false]) {
   console.log(`\n| slider, ${isolated ? 'threads' : 'one thread'} | in the worker, ms | to the picture, ms | at most |\n|---|---|---|---|`);
   for (const row of await measure(isolated)) console.log(`| ${row.join(' | ')} |`);
