@@ -23,10 +23,11 @@ class Splitter {
   std::vector<std::vector<TetRun>> rounds_of(TetRun tets, int halvings) {
     if (tets.empty()) return {};
     if (tets.size() <= kRunTets || halvings == 0) return {{std::move(tets)}};
-    auto [low, high] = halves(tets, tets.size() / 2);
+    const std::size_t axis = longest_axis(tets);
+    auto [low, high] = halves(tets, axis, tets.size() / 2);
     TetRun layer = take_layer(low, high);
     // Once more, so that the halves are even without the layer, which has been taken from one of them.
-    std::tie(low, high) = halves(tets, (tets.size() - layer.size()) / 2);
+    std::tie(low, high) = halves(tets, axis, (tets.size() - layer.size()) / 2);
     layer = take_layer(low, high);
     std::vector<std::vector<TetRun>> rounds = rounds_of(std::move(low), halvings - 1);
     join(rounds, rounds_of(std::move(high), halvings - 1), 0);
@@ -51,9 +52,8 @@ class Splitter {
     return static_cast<std::size_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
   }
 
-  /// The `count` lowest tets along the longest axis, and the others; each half ascending.
-  std::pair<TetRun, TetRun> halves(const TetRun& tets, std::size_t count) const {
-    const std::size_t axis = longest_axis(tets);
+  /// The `count` lowest tets along the axis, and the others; each half ascending.
+  std::pair<TetRun, TetRun> halves(const TetRun& tets, std::size_t axis, std::size_t count) const {
     TetRun order = tets;
     const auto middle = order.begin() + static_cast<std::ptrdiff_t>(count);
     std::nth_element(order.begin(), middle, order.end(), [&](std::uint32_t a, std::uint32_t b) {
