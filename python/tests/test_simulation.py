@@ -324,9 +324,37 @@ def test_simulations_run_in_parallel_but_one_lets_a_single_thread_in(torus):
     assert busy.time == 1
 
 
+def interrupted(program: str) -> tuple[str, str]:
+    """What a program says on standard output after "begins", and on standard error, when Ctrl-C comes soon after."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell ignores it in the background
+    )
+    assert process.stdout is not None and process.stdout.readline() == "begins\n"
+    time.sleep(0.2)
+    process.send_signal(signal.SIGINT)
+    return process.communicate(timeout=20)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_ctrl_c_ends_a_loop_of_steps():
+    _, said = interrupted("""
+import tetsoup
+simulation = tetsoup.Simulation()
+simulation.add_body(tetsoup.tetrahedralize(tetsoup.sample("torus"), voxels=32, cells=8))
+print("begins", flush=True)
+while True:
+    simulation.step(1 / 60)
+""")
+    assert said.splitlines()[-1].startswith("KeyboardInterrupt")
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 def test_ctrl_c_ends_a_long_step_and_the_simulation_can_go_on():
-    program = """
+    answer, said = interrupted("""
 import tetsoup
 simulation = tetsoup.Simulation(substeps=10000)
 simulation.add_body(tetsoup.tetrahedralize(tetsoup.sample("torus"), voxels=32, cells=30))
@@ -339,18 +367,7 @@ except KeyboardInterrupt:
     simulation.step(0.001)
     print(then % 1 != 0 and simulation.time == then + 0.001)
     raise
-"""
-    process = subprocess.Popen(
-        [sys.executable, "-c", program],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell ignores it in the background
-    )
-    assert process.stdout is not None and process.stdout.readline() == "begins\n"
-    time.sleep(0.2)
-    process.send_signal(signal.SIGINT)
-    answer, said = process.communicate(timeout=20)
+""")
     assert said.splitlines()[-1].startswith("KeyboardInterrupt")
     assert answer == "True\n"
 
