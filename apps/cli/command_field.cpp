@@ -10,6 +10,7 @@
 #include "soup_input.h"
 #include "summary.h"
 #include "tetsoup/io.h"
+#include "tetsoup/report.h"
 
 namespace tetsoup::cli {
 
@@ -47,13 +48,16 @@ void run_field(FieldCommand& command) {
   files.keep();
   if (command.run.quiet) return;
   const GridFrame& frame = pipeline.distance().distance.frame;
-  const std::string raised = describe_raised_voxels(pipeline.soup(), command.options.distance, frame);
-  write_stdout(fmt::format(
-      "{}{}{}Time: {:.2f} s (read {:.2f}, clean {:.2f}, distance {:.2f}, pseudo volume {:.2f})\nWrote {}\n",
-      describe_soup(command.input, pipeline.soup().report),
-      describe_volume(frame, pipeline.pseudo_volume().report, pipeline.soup().report),
-      raised.empty() ? "" : "Note: " + raised + "\n", watch.seconds(), read_seconds, pipeline.seconds(Stage::Soup),
-      pipeline.seconds(Stage::Distance), pipeline.seconds(Stage::PseudoVolume), command.output));
+  std::string notes;
+  for (const std::string& note : grid_notes(pipeline.soup(), command.options.distance, frame))
+    notes += "Note: " + note + "\n";
+  for (const std::string& note : pipeline.pseudo_volume().report.notes) notes += "Note: " + note + "\n";
+  write_stdout(
+      fmt::format("{}{}{}Time: {:.2f} s (read {:.2f}, clean {:.2f}, distance {:.2f}, pseudo volume {:.2f})\nWrote {}\n",
+                  describe_soup(command.input, pipeline.soup().report),
+                  describe_volume(frame, pipeline.pseudo_volume().report, pipeline.soup().report), notes,
+                  watch.seconds(), read_seconds, pipeline.seconds(Stage::Soup), pipeline.seconds(Stage::Distance),
+                  pipeline.seconds(Stage::PseudoVolume), command.output));
 }
 
 }  // namespace

@@ -175,7 +175,8 @@ void run_mesh(MeshCommand& command) {
   run.options = command.options;
   run.pipeline = &pipeline;
   take_stage_times(run);
-  if (!command.run.quiet || command.json || command.preview || command.page) {  // or nobody would see it
+  const bool seen = !command.run.quiet || command.json || command.preview || command.page;
+  if (seen) {
     bar.show("measure");
     measure(run, command.json.has_value() || command.page.has_value());
   }
@@ -183,6 +184,7 @@ void run_mesh(MeshCommand& command) {
   bar.show("write");
   NewFiles files;
   write_meshes(command, planned, run, files);
+  if (seen) run.notes = notes_of({pipeline, run.quality, run.iou, run.engine, run.material.metres_per_unit});
   if (command.preview) draw_preview(*command.preview, command.model.up, run, files);
   bar.clear();
   throw_if_interrupted();

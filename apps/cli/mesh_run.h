@@ -37,6 +37,7 @@ struct MeshRun {
   Material material;
   TetModel model;  ///< What is written.
   Readiness readiness;
+  std::vector<std::string> notes;  ///< For the user.
   Timings seconds;
 };
 

@@ -55,6 +55,7 @@ std::string mesh_report_json(const MeshRun& run) {
                   {"k", volume.k},
                   {"band_voxels", volume.band_voxels},
                   {"voxels", unpadded_size(pipeline.distance().distance.frame)},
+                  {"notes", run.notes},
                   {"soup", part(pipeline.soup().report)},
                   {"seconds", seconds_json(run.seconds)},
                   {"version", TETSOUP_VERSION},

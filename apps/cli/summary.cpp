@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "angles.h"
 #include "mesh_model.h"
 #include "readiness_page.h"
@@ -104,86 +101,6 @@ std::string describe_result(const MeshRun& run) {
       run.iou, run.distance.mean, run.distance.percentile95);
 }
 
-/// Below this overlap the mesh misses features that its voxels show; the default lattice of solid models reaches more.
-constexpr double kLowOverlap = 0.75;
-/// Beyond this share of tets judged without a voxel centre, the lattice is finer than the grid that it was cut from.
-constexpr double kManySampled = 0.1;
-
-/// What to ask for to get twice as many, within what the flag takes.
-int doubled(int count, int most) {
-  return std::min(2 * count, most);
-}
-
-int longest_of(const std::array<int, 3>& counts) {
-  return *std::max_element(counts.begin(), counts.end());
-}
-
-/// Where the count is missed by more than was promised: shapes of a few flat sides lose or gain tets by the layer.
-void note_budget(const MeshRun& run, std::vector<std::string>& notes) {
-  const LatticeOptions& options = run.options.lattice;
-  const auto note = [&](std::size_t wanted, std::size_t got, const char* noun) {
-    const double tolerance = wanted < 200 ? 0.10 : 0.05;
-    if (std::abs(static_cast<double>(got) / static_cast<double>(wanted) - 1) <= tolerance) return;
-    notes.push_back(fmt::format("Of {} only a lattice with {} came near; shift or turn it (--translate, --rotate).",
-                                counted(wanted, noun), grouped(got)));
-  };
-  if (options.tets) note(*options.tets, run.pipeline->lattice().mesh.tets.size(), "tet");
-  if (options.vertices) note(*options.vertices, run.pipeline->lattice().mesh.vertices.size(), "vertex");
-}
-
-void note_lattice(const MeshRun& run, std::vector<std::string>& notes) {
-  const LatticeReport& lattice = run.pipeline->lattice().report;
-  constexpr int kMostCells = 1024, kMostVoxels = 4096;
-  const int more_cells = doubled(longest_of(lattice.cells), kMostCells);
-  note_budget(run, notes);
-  if (lattice.kept_by_soup) {
-    notes.push_back(fmt::format(
-        "No tet was filled enough (--rho-min {:.4g}), as happens with sheets and needles, so the tets that the soup "
-        "passes through were kept. For a thinner body use more cells (--cells {}); for a filled one a wider band "
-        "(--band-voxels {:.3g}).",
-        run.options.lattice.rho_min, more_cells, 2 * run.pipeline->pseudo_volume().report.band_voxels));
-    return;
-  }
-  if (static_cast<double>(lattice.sampled_tets) > kManySampled * static_cast<double>(lattice.tet_count))
-    notes.push_back(fmt::format(
-        "The lattice is finer than the voxel grid: {} held no voxel centre and were judged by samples. More voxels "
-        "(--voxels {}) show more of the shape.",
-        counted(lattice.sampled_tets, "tet"),
-        doubled(longest_of(unpadded_size(run.pipeline->distance().distance.frame)), kMostVoxels)));
-  if (run.iou < kLowOverlap)
-    notes.push_back(fmt::format("The mesh follows the shape only roughly. More tets follow it more closely: --tets {}.",
-                                4 * run.quality.tet_count));
-}
-
-/// A model drawn in millimetres is a thousand times too large for an engine that takes its unit for the metre.
-void note_size(const MeshRun& run, std::vector<std::string>& notes) {
-  constexpr double kSmall = 0.001, kLarge = 10;  // metres
-  const Box3& box = run.pipeline->soup().report.box;
-  const double size =
-      std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z}) * run.material.metres_per_unit;
-  if (run.engine.empty() || (size >= kSmall && size <= kLarge)) return;
-  notes.push_back(
-      fmt::format("For the engine the body is {:.3g} m long. If the model's unit is another than {:.3g} m, say so: "
-                  "--metres-per-unit 0.001 for millimetres.",
-                  size, run.material.metres_per_unit));
-}
-
-/// Its tree of nodes is made by joining neighbours until one is left.
-void note_pieces(const MeshRun& run, std::vector<std::string>& notes) {
-  if (run.engine != "bullet" || run.quality.components < 2) return;
-  notes.push_back(
-      fmt::format("PyBullet's loadSoftBody() never returns for a body of several pieces, here {}: join them "
-                  "(--rho-min 0.2, more tets) or drop the small ones (--min-part 0.05).",
-                  run.quality.components));
-}
-
-void note_faults(const Quality& quality, std::vector<std::string>& notes) {
-  if (quality.inverted_tets + quality.invalid_tets > 0)
-    notes.push_back(
-        fmt::format("{} of the mesh have no positive volume. This is a bug; please report it with the input.",
-                    counted(quality.inverted_tets + quality.invalid_tets, "tet")));
-}
-
 std::string describe_seconds(const Timings& seconds) {
   std::string text = fmt::format("Time: {:.2f} s (", seconds.total);
   const std::pair<const char*, double> steps[] = {
@@ -226,20 +143,6 @@ std::string describe_soup(const std::string& name, const SoupReport& soup) {
                      describe_dropped(soup));
 }
 
-std::string describe_raised_voxels(const CleanSoup& soup, const DistanceOptions& asked, const GridFrame& frame) {
-  const Box3& box = soup.report.box;
-  const double longest = std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z});
-  constexpr int kDefaultVoxels = 128;
-  const double wanted = asked.voxel_size.value_or(longest / asked.voxels.value_or(kDefaultVoxels));
-  constexpr double kRounding = 1e-6;  // relative; a raised edge is larger by more than that
-  if (frame.voxel_size <= wanted * (1 + kRounding)) return {};
-  if (longest == 0) return fmt::format("The soup has no extent; the voxel edge is {:.4g}.", frame.voxel_size);
-  return fmt::format(
-      "The voxel edge was raised from {:.4g} to {:.4g}: so far from the origin single precision tells no finer voxels "
-      "apart. Move the model to the origin to get what was asked for.",
-      wanted, frame.voxel_size);
-}
-
 std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& volume, const SoupReport& soup) {
   const std::array<int, 3> size = unpadded_size(frame);
   std::string text = fmt::format("Grid: {} x {} x {} voxels of edge {:.4g}. k = {:.4g} {} (band {:.3g} voxels)",
@@ -265,14 +168,7 @@ std::string describe_run(const MeshRun& run) {
   std::string text = describe_soup(run.input, pipeline.soup().report) +
                      describe_volume(frame, pipeline.pseudo_volume().report, pipeline.soup().report) +
                      describe_lattice(pipeline.lattice().report, pipeline.smooth().report) + describe_result(run);
-  std::vector<std::string> notes;
-  const std::string raised = describe_raised_voxels(pipeline.soup(), run.options.distance, frame);
-  if (!raised.empty()) notes.push_back(raised);
-  note_lattice(run, notes);
-  note_faults(run.quality, notes);
-  note_size(run, notes);
-  note_pieces(run, notes);
-  for (const std::string& note : notes) text += "Note: " + note + "\n";
+  for (const std::string& note : run.notes) text += "Note: " + note + "\n";
   text += describe_model(run.model);
   text += describe_readiness(run.readiness, run.material);
   text += describe_seconds(run.seconds);

@@ -24,9 +24,6 @@ std::string counted(std::size_t count, std::string_view noun);
 /// One paragraph: what the soup is, what was dropped, what is assumed about it.
 std::string describe_soup(const std::string& name, const SoupReport& soup);
 
-/// Why the grid is coarser than asked, or nothing.
-std::string describe_raised_voxels(const CleanSoup& soup, const DistanceOptions& asked, const GridFrame& frame);
-
 /// Grid, event band and what came out inside.
 std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& volume, const SoupReport& soup);
 

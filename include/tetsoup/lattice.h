@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tetsoup/progress.h"
 #include "tetsoup/pseudo_volume.h"
@@ -121,6 +123,8 @@ struct LatticeReport {
   double excess_volume = 0;         ///< Of the mesh, outside the pseudo volume,
   double lacking_volume = 0;        ///< and of the pseudo volume, outside the mesh.
   TopologyReport topology;
+  std::vector<std::string>
+      notes;  ///< What the user should know, and the option that changes it: one sentence or two each.
 };
 
 struct LatticeMesh {

@@ -55,6 +55,7 @@ class Pipeline {
   /// Runs stages up to and including `last` only.
   void run_until(Stage last, const MeshOptions& options = {}, const Progress& progress = {});
 
+  const MeshOptions& options() const { return options_; }  ///< Of the last run.
   const CleanSoup& soup() const { return soup_; }
   const DistanceField& distance() const { return *distance_; }  ///< After the stage has run, as all below.
   const PseudoVolume& pseudo_volume() const { return *volume_; }

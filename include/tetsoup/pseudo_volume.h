@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tetsoup/distance.h"
@@ -61,6 +62,8 @@ struct PseudoVolumeReport {
   std::size_t inside_voxels = 0;
   double volume = 0;     ///< Of the inside voxels.
   double consensus = 0;  ///< Mean of |2 votes / rays - 1| over all voxels; 1 = all rays agree everywhere.
+  std::vector<std::string>
+      notes;  ///< What the user should know, and the option that changes it: one sentence or two each.
 };
 
 /// How many rays call each voxel inside, bit-sliced: 64 voxels along x share a word, as they do in a BitGrid.

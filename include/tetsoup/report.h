@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tetsoup/pipeline.h"
 #include "tetsoup/quality.h"
@@ -28,6 +29,21 @@ std::string to_json(const Energy& energy);
 /// Arrays: name, material and number of tets of every region; name and number of vertices of all pins.
 std::string regions_json(const TetModel& model);
 std::string pins_json(const TetModel& model);
+
+/// What is known of a finished mesh, and what it is for.
+struct Findings {
+  const Pipeline& pipeline;  ///< Every stage has run.
+  const Quality& quality;    ///< Of the final mesh.
+  double overlap = 1;        ///< Its IoU with the pseudo volume.
+  std::string engine = {};   ///< That the mesh is written for; empty: none.
+  double metres_per_unit = 1;
+};
+
+/// What the user should know: what was found or could not be had, and the option of `tetsoup mesh` that changes it; one
+/// sentence or two each, in the order of the stages. What a stage has to say stands in its own report's `notes`.
+std::vector<std::string> notes_of(const Findings& found);
+/// Why the grid is coarser than asked, or none; notes_of() holds them.
+std::vector<std::string> grid_notes(const CleanSoup& soup, const DistanceOptions& asked, const GridFrame& frame);
 
 /// A report that people look at.
 struct ReportPage {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "tetsoup/progress.h"
@@ -52,6 +53,8 @@ struct SmoothReport {
   double min_dihedral = 0;  ///< After smoothing, radians.
   /// For each boundary vertex, in ascending vertex order: volume of the tets around it, after over before.
   std::vector<float> boundary_volume_ratio;
+  std::vector<std::string>
+      notes;  ///< What the user should know, and the option that changes it: one sentence or two each.
 };
 
 struct SmoothResult {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "tetsoup/progress.h"
 #include "tetsoup/types.h"
@@ -33,6 +35,8 @@ struct SoupReport {
   std::size_t inconsistent_edges = 0;  ///< Edges of two triangles that run along them in the same direction.
   SoupClass kind = SoupClass::Empty;
   Box3 box;  ///< Of the used triangles.
+  std::vector<std::string>
+      notes;  ///< What the user should know, and the option that changes it: one sentence or two each.
 };
 
 /// The soup in its canonical form: distinct positions in lexicographic order, each triangle's indices ascending,

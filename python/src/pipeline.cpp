@@ -7,6 +7,7 @@
 #include "progress.h"
 #include "records.h"
 #include "tetsoup/io.h"
+#include "tetsoup/report.h"
 
 #include <nanobind/stl/filesystem.h>
 
@@ -67,6 +68,17 @@ void save_preview(const Session& session, const std::filesystem::path& path, con
   call_unlocked([&] { write_preview(path, scene, width); });
 }
 
+std::vector<std::string> notes(const Session& session) {
+  const Pipeline& pipeline = after(session, Stage::Smooth);
+  return call_unlocked([&] {
+    const TetMesh& mesh = pipeline.smooth().mesh;
+    const Quality quality = measure_quality(mesh);
+    return notes_of({.pipeline = pipeline,
+                     .quality = quality,
+                     .overlap = intersection_over_union(mesh, pipeline.pseudo_volume().inside)});
+  });
+}
+
 void save_fields(const Session& session, const std::filesystem::path& path) {
   const Pipeline& pipeline = after(session, Stage::PseudoVolume);
   call_unlocked([&] { write_field(path, pipeline.distance(), pipeline.pseudo_volume()); });
@@ -100,6 +112,7 @@ void bind_pipeline(nb::module_& m) {
       .def("mesh", [](const Session& self) { return after(self, Stage::Smooth).smooth().mesh; })
       .def("smooth_report", [](const Session& self) { return after(self, Stage::Smooth).smooth().report; })
       .def("options", [](const Session& self) { return describe_options(self.options); })
+      .def("notes", &notes)
       .def("seconds", &stage_seconds)
       .def("run_counts", &stage_run_counts)
       .def("save_fields", &save_fields)

@@ -25,7 +25,8 @@ void bind_soup_report(nb::module_& m) {
       .field("non_manifold_edges", &R::non_manifold_edges, "Edges of three or more triangles.")
       .field("inconsistent_edges", &R::inconsistent_edges, "Edges whose two triangles run along them the same way.")
       .field("kind", &R::kind, "'closed', 'open', 'soup' (mostly unconnected) or 'empty'.")
-      .field("box", &R::box, "Lower and upper corner of the used triangles.");
+      .field("box", &R::box, "Lower and upper corner of the used triangles.")
+      .field("notes", &R::notes, "What you should know, and the option that changes it.");
 }
 
 void bind_volume_report(nb::module_& m) {
@@ -48,7 +49,8 @@ void bind_volume_report(nb::module_& m) {
       .field("soup_covered", &R::soup_covered, "Share of the soup's voxels with an inside voxel beside them.")
       .field("inside_voxels", &R::inside_voxels, "Their number.")
       .field("volume", &R::volume, "Of the inside voxels.")
-      .field("consensus", &R::consensus, "Mean of |2 votes / rays - 1|; 1 = all rays agree everywhere.");
+      .field("consensus", &R::consensus, "Mean of |2 votes / rays - 1|; 1 = all rays agree everywhere.")
+      .field("notes", &R::notes, "What you should know, and the option that changes it.");
 }
 
 void bind_lattice_report(nb::module_& m) {
@@ -87,7 +89,8 @@ void bind_lattice_report(nb::module_& m) {
       .field("parted_vertices", &R::parted_vertices, "Vertices doubled between tets that stay what they were.")
       .field("excess_volume", &R::excess_volume, "Of the mesh, outside the pseudo volume.")
       .field("lacking_volume", &R::lacking_volume, "Of the pseudo volume, outside the mesh.")
-      .field("topology", &R::topology, "What the clean-up did.");
+      .field("topology", &R::topology, "What the clean-up did.")
+      .field("notes", &R::notes, "What you should know, and the option that changes it.");
 }
 
 void bind_smooth_report(nb::module_& m) {
@@ -102,7 +105,8 @@ void bind_smooth_report(nb::module_& m) {
       .field("volume_wanted", &R::volume_wanted, "What it should be; 0: what the fit gives.")
       .field("min_dihedral", &R::min_dihedral, "Smallest dihedral angle afterwards, radians.")
       .field("boundary_volume_ratio", &R::boundary_volume_ratio,
-             "For each boundary vertex, ascending: volume of the tets around it, after over before.");
+             "For each boundary vertex, ascending: volume of the tets around it, after over before.")
+      .field("notes", &R::notes, "What you should know, and the option that changes it.");
 }
 
 void bind_quality(nb::module_& m) {

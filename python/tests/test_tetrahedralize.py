@@ -133,6 +133,7 @@ def test_what_was_found_and_done_is_reported(cube):
     assert mesh.report.lattice.cells == (4, 4, 4)
     assert mesh.report.options["cells"] == 4 and mesh.report.options["voxels"] == 16
     assert set(mesh.report.seconds) == {"soup", "distance", "pseudo_volume", "lattice", "smooth"}
+    assert mesh.report.notes == mesh.report.as_dict()["notes"] and all("--" in note for note in mesh.report.notes)
     nested = mesh.report.as_dict()
     assert nested["lattice"]["topology"]["parts_dropped"] == mesh.report.lattice.topology.parts_dropped
     assert isinstance(nested["pseudo_volume"]["candidates"][0]["score"], float)

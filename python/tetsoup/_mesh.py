@@ -35,6 +35,8 @@ class Report:
     """Wall time of every stage."""
     options: dict[str, Any]
     """Every option the mesh was made with, those left to their defaults too."""
+    notes: list[str]
+    """What you should know of the mesh, and the option of `tetsoup mesh` that changes it (``--rho-min``: `rho_min`)."""
 
     def as_dict(self) -> dict[str, Any]:
         """The same as nested dicts.
@@ -44,7 +46,7 @@ class Report:
             1974
         """
         parts = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
-        return {name: part if isinstance(part, dict) else part.as_dict() for name, part in parts.items()}
+        return {name: part if isinstance(part, dict | list) else part.as_dict() for name, part in parts.items()}
 
 
 class TetMesh:

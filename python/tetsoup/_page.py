@@ -67,6 +67,7 @@ def _as_json(report: Report | None) -> str:
         "lattice": report.lattice.as_dict(),
         "options": report.options,
         "seconds": report.seconds,
+        "notes": report.notes,
     }
     return json.dumps(found, default=str)
 

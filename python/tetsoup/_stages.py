@@ -276,6 +276,7 @@ def _report(core: _core.Pipeline) -> Report:
         core.smooth_report(),
         core.seconds(),
         core.options(),
+        core.notes(),
     )
 
 

@@ -98,6 +98,10 @@ Json report_of(const tetsoup_pipeline& p, const char* material_json) {
     report["smooth"] = part(pipeline.smooth().report);
     report["quality"] = part(quality);
     report["readiness"] = part(assess_readiness(mesh, quality, material), material);
+    report["notes"] = notes_of({.pipeline = pipeline,
+                                .quality = quality,
+                                .overlap = intersection_over_union(mesh, pipeline.pseudo_volume().inside),
+                                .metres_per_unit = material.metres_per_unit});
   }
   for (std::size_t stage = 0; stage <= static_cast<std::size_t>(p.done); ++stage)
     report["seconds"][kStageNames[stage]] = pipeline.seconds(static_cast<Stage>(stage));
