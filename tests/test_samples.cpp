@@ -79,7 +79,8 @@ double smallest_area(const TriangleSoup& soup) {
 }
 
 TEST(Samples, are_listed_in_a_fixed_order_each_with_a_summary) {
-  EXPECT_EQ(sample_names(), (std::vector<std::string>{"torus", "heart", "sphere", "robot", "tree", "palm"}));
+  EXPECT_EQ(sample_names(), (std::vector<std::string>{"torus", "heart", "sphere", "robot", "tree", "palm", "cup",
+                                                      "pipe", "tray", "comb", "chain"}));
   for (const std::string& name : sample_names()) EXPECT_FALSE(sample_summary(name).empty());
 }
 
@@ -149,6 +150,52 @@ TEST(Samples, the_robot_has_about_16_thousand_triangles_in_many_closed_parts) {
   EXPECT_NEAR(static_cast<double>(robot.triangles.size()), 16000, 800);
 }
 
+/// Area of a regular polygon of 48 sides in the circle of radius 1.
+const double kPolygon = 24 * std::sin(kPi / 24);
+
+TEST(Samples, thin_shapes_are_closed_and_their_volume_is_that_of_their_walls) {
+  const auto square = [](double x) { return x * x; };
+  for (const double w : {0.0025, 0.01, 0.05, 0.1}) {
+    const struct {
+      const char* name;
+      double volume;
+    } shapes[]{{"cup", kPolygon * (0.25 - square(0.5 - w) * (1 - w))},
+               {"pipe", kPolygon * (square(0.25) - square(0.25 - w))},
+               {"tray", 0.7 * 0.25 - (1 - 2 * w) * (0.7 - 2 * w) * (0.25 - w)},
+               {"comb", 0.25 * (0.2 + 8 * w * 0.4)}};
+    for (const auto& shape : shapes) {
+      const TriangleSoup soup = make_sample(shape.name, {.wall = w});
+      EXPECT_TRUE(is_closed(soup)) << shape.name;
+      EXPECT_NEAR(enclosed_volume(soup) / shape.volume, 1, 1e-4) << shape.name << " " << w;
+      const auto size = extents(soup);
+      EXPECT_NEAR(*std::max_element(size.begin(), size.end()), 1, 1e-6) << shape.name;
+    }
+  }
+}
+
+TEST(Samples, the_links_of_the_chain_do_not_touch) {
+  for (const double w : {0.02, 0.15, 0.2}) {
+    const TriangleSoup chain = make_sample("chain", {.wall = w});
+    EXPECT_TRUE(is_closed(chain));
+    EXPECT_GT(enclosed_volume(chain), 0);
+    // Two links in each other: no vertex of one is nearer to the other's wire than a twentieth of it.
+    const std::size_t link = chain.vertices.size() / 8;
+    double nearest = 1;
+    for (std::size_t a = 0; a < link; ++a)
+      for (std::size_t b = link; b < 2 * link; ++b)
+        nearest = std::min(nearest, length(to_double(chain.vertices[a]) - to_double(chain.vertices[b])));
+    EXPECT_GT(nearest, 0.05 * w);
+    EXPECT_NEAR(extents(chain)[0], 1 + 7 * (1 - 2.1 * w), 1e-6);
+  }
+}
+
+TEST(Samples, a_wall_is_refused_where_there_is_none_or_no_room) {
+  EXPECT_THROW(make_sample("torus", {.wall = 0.1}), InvalidInput);
+  for (const double wall : {0.0, -0.1, 0.5, std::nan("")})
+    EXPECT_THROW(make_sample("cup", {.wall = wall}), InvalidInput);
+  EXPECT_NEAR(enclosed_volume(make_sample("cup")), enclosed_volume(make_sample("cup", {.wall = 0.02})), 1e-9);
+}
+
 TEST(Samples, no_two_triangles_of_tree_and_palm_touch) {
   for (const char* name : {"tree", "palm"}) {
     const TriangleSoup soup = make_sample(name);
@@ -193,7 +240,9 @@ TEST(Samples, an_unknown_name_is_answered_with_the_known_ones) {
     make_sample("teapot");
     FAIL() << "no exception";
   } catch (const InvalidInput& error) {
-    EXPECT_STREQ(error.what(), "sample = teapot, must be one of torus, heart, sphere, robot, tree, palm");
+    EXPECT_STREQ(error.what(),
+                 "sample = teapot, must be one of torus, heart, sphere, robot, tree, palm, cup, "
+                 "pipe, tray, comb, chain");
   }
   EXPECT_THROW(sample_summary(""), InvalidInput);
 }

@@ -30,7 +30,8 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  tetsoup sample                                        list the samples\n"
     "  tetsoup sample torus                                  write torus.obj\n"
-    "  tetsoup sample sphere -o broken.ply --damage 0.5      half of the triangles removed at random";
+    "  tetsoup sample sphere -o broken.ply --damage 0.5      half of the triangles removed at random\n"
+    "  tetsoup sample cup --wall 0.01                        a cup whose wall is a hundredth of its height";
 
 void list_samples() {
   std::string text;
@@ -71,6 +72,10 @@ void add_sample_command(CLI::App& app) {
       *sample, "--damage", "X",
       [command](const std::string& text) { command->options.damage = parse_number("--damage", text, kDamage); },
       "Share of the triangles removed at random, [0, 1) (0)");
+  add_flag(
+      *sample, "--wall", "X",
+      [command](const std::string& text) { command->options.wall = parse_number("--wall", text, kPositive); },
+      "Thickness of a cup's, pipe's or tray's wall, a comb's tooth, a chain's\nwire, as a share of the length");
   add_flag(
       *sample, "--seed", "N",
       [command](const std::string& text) { command->options.seed = parse_seed("--seed", text); },

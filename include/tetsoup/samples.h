@@ -1,7 +1,9 @@
-// tetsoup: the shapes the paper shows, made by formula; they serve as samples, test inputs and bench inputs.
+// tetsoup: the shapes the paper shows and shapes of thin walls, made by formula; they serve as samples, test inputs and
+// bench inputs.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,9 @@ inline constexpr double kTorusMinorRadius = 18.5;
 struct SampleOptions {
   double damage = 0;       ///< Share of the triangles removed at random, [0, 1).
   std::uint64_t seed = 1;  ///< Of the random removal and of the random parts of a shape.
+  /// Thickness of a cup's, pipe's or tray's wall, a comb's tooth, a chain's wire; the shape (of a chain: a link) is 1
+  /// long. Absent: the sample's own.
+  std::optional<double> wall = {};
 };
 
 /// Names that make_sample() knows, in a fixed order.
@@ -26,7 +31,8 @@ std::vector<std::string> sample_names();
 std::string sample_summary(std::string_view name);
 
 /// Makes a sample; the same bits for the same name and options on every machine.
-/// @throws InvalidInput  for an unknown name (the text lists the known ones) or a damage out of range.
+/// @throws InvalidInput  for an unknown name (the text lists the known ones) a damage or wall out of range, or a wall
+/// where there is none.
 TriangleSoup make_sample(std::string_view name, const SampleOptions& options = {});
 
 /// Removes a share of the triangles, chosen at random by seed; the vertices stay.

@@ -33,11 +33,15 @@ void bind_errors(nb::module_& m) {
 
 void bind_samples(nb::module_& m) {
   m.def("sample_names", &sample_names);
-  m.def("make_sample", [](const std::string& name, double damage, std::uint64_t seed) {
-    TriangleSoup soup = call_unlocked([&] { return make_sample(name, {.damage = damage, .seed = seed}); });
-    return std::tuple(owned_rows<float, 3>(std::move(soup.vertices)),
-                      owned_rows<std::uint32_t, 3>(std::move(soup.triangles)));
-  });
+  m.def(
+      "make_sample",
+      [](const std::string& name, double damage, std::uint64_t seed, std::optional<double> wall) {
+        TriangleSoup soup =
+            call_unlocked([&] { return make_sample(name, {.damage = damage, .seed = seed, .wall = wall}); });
+        return std::tuple(owned_rows<float, 3>(std::move(soup.vertices)),
+                          owned_rows<std::uint32_t, 3>(std::move(soup.triangles)));
+      },
+      nb::arg("name"), nb::arg("damage"), nb::arg("seed"), nb::arg("wall").none());
 }
 
 }  // namespace

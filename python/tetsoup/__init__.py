@@ -127,22 +127,24 @@ def boundary_distance(mesh: TetMesh, soup: Any, unit: float = 1) -> BoundaryDist
     return _core.boundary_distance(mesh._handle, *as_soup(soup), unit)
 
 
-def sample(name: str, *, damage: float = 0, seed: int = 1) -> Soup:
+def sample(name: str, *, damage: float = 0, seed: int = 1, wall: float | None = None) -> Soup:
     """A shape made by formula, to play with; the same bits on every machine.
 
     Args:
         name: one of `sample_names()`.
         damage: share of the triangles removed at random, [0, 1).
         seed: of whatever is random.
+        wall: thickness of a cup's, pipe's or tray's wall, a comb's tooth, a chain's wire, as a share of the length; None:
+            the sample's own.
 
     Raises:
-        tetsoup.InvalidInput: for an unknown name or a damage out of range.
+        tetsoup.InvalidInput: for an unknown name, a damage or wall out of range, or a wall where there is none.
 
     Example:
         >>> tetsoup.tetrahedralize(tetsoup.sample("torus", damage=0.9))
         <tetsoup.TetMesh: 696 points, 1,980 tets>
     """
-    return _as_soup(*_core.make_sample(name, damage, seed))
+    return _as_soup(*_core.make_sample(name, damage, seed, wall))
 
 
 def sample_names() -> list[str]:
