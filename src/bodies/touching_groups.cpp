@@ -1,22 +1,15 @@
 #include "bodies/touching_groups.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
-#include "base/box_hierarchy.h"
-#include "base/triangle_contact.h"
 #include "base/unions.h"
+#include "bodies/rays.h"
 
 namespace tetsoup {
 namespace {
 
 constexpr std::uint32_t kMixed = kNoPart;  ///< Of a node that holds parts of several sets.
-
-TriangleCorners corners_of(const TriangleSoup& soup, std::uint32_t triangle) {
-  const auto [a, b, c] = soup.triangles[triangle];
-  return {soup.vertices[a], soup.vertices[b], soup.vertices[c]};
-}
 
 /// Every vertex joins the parts of its triangles.
 void join_at_vertices(const TriangleSoup& soup, std::span<const std::uint32_t> parts, Unions& sets) {
@@ -116,25 +109,6 @@ class Joiner {
   std::uint32_t visited_ = 0;
 };
 
-/// Calls cross(triangle) for the triangles that a ray from `p` along +x crosses.
-template <class Cross>
-void visit_crossed(const TriangleSoup& soup, const BoxHierarchy& tree, const Vec3& p, const Cross& cross) {
-  std::array<std::uint32_t, BoxHierarchy::kMaxDepth> stack;
-  std::size_t depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t at = stack[--depth];
-    const BoxHierarchy::Node& node = tree.nodes[at];
-    if (p.x > node.hi.x || p.y < node.lo.y || p.y > node.hi.y || p.z < node.lo.z || p.z > node.hi.z) continue;
-    if (node.count == 0) {
-      stack[depth++] = node.next;
-      stack[depth++] = at + 1;
-    }
-    for (std::uint32_t i = node.next; i < node.next + node.count; ++i)
-      if (crosses_ahead(corners_of(soup, tree.order[i]), p)) cross(tree.order[i]);
-  }
-}
-
 /// The boxes of the parts.
 std::vector<BoxHierarchy::Box> part_boxes(const TriangleSoup& soup, std::span<const std::uint32_t> parts,
                                           std::size_t part_count) {
@@ -150,19 +124,6 @@ std::vector<BoxHierarchy::Box> part_boxes(const TriangleSoup& soup, std::span<co
 double volume_of(const BoxHierarchy::Box& box) {
   const Vec3d sides = to_double(box.hi) - to_double(box.lo);
   return sides.x * sides.y * sides.z;
-}
-
-/// What stands in `crossed` an odd number of times, ascending.
-void keep_odd(std::vector<std::uint32_t>& crossed) {
-  std::sort(crossed.begin(), crossed.end());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < crossed.size();) {
-    std::size_t end = i;
-    while (end < crossed.size() && crossed[end] == crossed[i]) ++end;
-    if ((end - i) % 2 == 1) crossed[kept++] = crossed[i];
-    i = end;
-  }
-  crossed.resize(kept);
 }
 
 }  // namespace
