@@ -266,6 +266,23 @@ TEST(PseudoVolume, wrong_options_are_refused) {
   refused([](auto& o) { o.k = 0.9, o.band = 1; });
 }
 
+TEST(PseudoVolume, a_band_far_wider_than_the_grid_is_as_wide_as_the_grid) {
+  const CleanSoup soup = clean_soup(test::make_confetti(40, 0.2, 3));
+  DistanceOptions grid;
+  grid.voxels = 24;
+  PseudoVolumeOptions options;
+  const auto with = [&](double band_voxels) {
+    options.band_voxels = band_voxels;
+    DistanceField field = unsigned_distance(soup, grid);
+    widen_distance(field, soup, band_needed_voxels(field, options));
+    return classify_volume(field, options);
+  };
+  const PseudoVolume wide = with(200), widest = with(1e10);
+  EXPECT_EQ(wide.votes, widest.votes);
+  EXPECT_EQ(wide.inside.words, widest.inside.words);
+  EXPECT_LT(widest.report.band_voxels, 1000);
+}
+
 TEST(PseudoVolume, same_bits_at_any_thread_count_and_cancellable) {
   const DistanceField field = make_field(make_sample("tree"), 64);
   set_thread_count(1);

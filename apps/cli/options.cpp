@@ -58,7 +58,9 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
       "Event threshold in (0, 1]: 1 counts surface crossings, less\nbridges gaps between triangles (auto)");
   CLI::Option* const voxels = add_flag(
       app, "--band-voxels", "X",
-      [&options](const std::string& text) { options.band_voxels = parse_number("--band-voxels", text, kPositive); },
+      [&options](const std::string& text) {
+        options.band_voxels = parse_number("--band-voxels", text, {0, 4096, false, true, "above 0 and at most 4096"});
+      },
       "Half width of the event band in voxels, instead of --k;\nabout half the widest gap that should count as closed");
   CLI::Option* const band = add_flag(
       app, "--band", "X",

@@ -11,7 +11,7 @@
 namespace tetsoup {
 
 enum class DistanceMode {
-  Band,  ///< Exact below `band_voxels`, infinity beyond: all that meshing needs.
+  Band,  ///< Exact below `band_voxels`, infinity beyond: all that meshing needs. Beyond 10 voxels as Full, cut off.
   Full,  ///< Every voxel, for export and viewing: exact below 4 voxels, beyond at most 0.05 voxels too far.
 };
 
@@ -42,7 +42,7 @@ GridFrame make_grid(const CleanSoup& soup, const DistanceOptions& options);
 /// Distance from every voxel centre to the nearest point of the soup, whatever its connectivity or winding.
 ///
 /// Exact in the band: the error is float rounding, below 1e-3 voxels against a double-precision brute force (tested).
-/// So is d_max in either mode.
+/// So is d_max in either mode. A band wider than 10 voxels has the bits of the full field.
 /// @throws InvalidInput  as make_grid; Cancelled if `progress` says so.
 /// Cost: Band: O(triangles + voxels in the band) time and memory, 1/16 byte for any other voxel; Full: 4 bytes per
 /// voxel, O(voxels x log triangles) time.

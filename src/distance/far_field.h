@@ -1,4 +1,4 @@
-// Distances in the whole grid, once the band is known.
+// Distances in the whole grid or in a wide band, once a narrow one is known.
 #pragma once
 
 #include "base/parallel.h"
@@ -9,7 +9,8 @@ namespace tetsoup {
 
 inline constexpr double kFarField = 4;  ///< Voxels; the band that must be known.
 
-/// The field with its unknown voxels filled: at most 0.045 voxels too far, never too near (surface_points.h).
-BlockGrid fill_far_field(const BlockGrid& band, const SoupFeatures& features, StageWatch& watch);
+/// The field with its unknown voxels filled that are nearer than `limit` voxels, infinity for all: at most 0.045 voxels
+/// too far, never too near (surface_points.h). Whatever the limit, a value that is known has the same bits.
+BlockGrid fill_far_field(const BlockGrid& band, const SoupFeatures& features, double limit, StageWatch& watch);
 
 }  // namespace tetsoup

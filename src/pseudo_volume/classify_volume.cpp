@@ -51,10 +51,12 @@ bool is_automatic(const PseudoVolumeOptions& o) {
   return !o.k && !o.band && !o.band_voxels;
 }
 
-/// The band that was asked for, in voxels, before the floor.
+/// The band that was asked for, in voxels, before the floor; none is wider than the grid.
 double asked_band_voxels(const DistanceField& field, const PseudoVolumeOptions& options) {
-  if (options.band_voxels) return *options.band_voxels;
-  if (options.band) return *options.band / field.distance.frame.voxel_size;
+  const auto& [nx, ny, nz] = field.distance.frame.size;
+  const double widest = 1.0 * nx + ny + nz;
+  if (options.band_voxels) return std::min(*options.band_voxels, widest);
+  if (options.band) return std::min(*options.band / field.distance.frame.voxel_size, widest);
   return (1 - *options.k) * field.d_max / field.distance.frame.voxel_size;
 }
 
