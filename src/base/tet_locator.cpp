@@ -1,3 +1,4 @@
+#include "base/elementary.h"
 #include "base/tet_locator.h"
 
 #include "base/whole.h"
@@ -13,8 +14,8 @@ constexpr double kMostBucketsPerTet = 16;
 
 /// About the edge of the largest tet.
 double tet_edge_of(const Vec3d& size, double largest_volume, double tet_count) {
-  double edge =
-      std::max(std::cbrt(6 * largest_volume), std::cbrt(size.x * size.y * size.z / (kBucketsPerTet * tet_count + 1)));
+  double edge = std::max(elementary::cbrt(6 * largest_volume),
+                         elementary::cbrt(size.x * size.y * size.z / (kBucketsPerTet * tet_count + 1)));
   const double longest = std::max({size.x, size.y, size.z});
   if (!(longest > 0)) return 1;
   edge = std::max(edge, longest * 1e-6);

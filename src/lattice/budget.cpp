@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/elementary.h"
 #include "lattice/fit_points.h"
 
 namespace tetsoup {
@@ -71,7 +72,7 @@ class Search {
 
   Fill run(int most_fills) {
     // Smaller cells would put more tets than are wanted into a single voxel, and fill the memory where nothing helps.
-    const double in_voxel = filler_.grid().voxel_size / std::cbrt(static_cast<double>(budget_.wanted));
+    const double in_voxel = filler_.grid().voxel_size / elementary::cbrt(static_cast<double>(budget_.wanted));
     const double largest = 4 * filler_.longest_edge(), smallest = std::max(filler_.smallest_cell(), in_voxel);
     const double stop = kGoodEnough * budget_.tolerance();
     double cell_size = pose_.cell_size;
@@ -80,8 +81,8 @@ class Search {
       if (!tries_.empty() && !crumbs_ && cell_size == pose_.cell_size) break;
       set_pose(cell_size);
       try_pose(i);
-      if (std::abs(std::expm1(tries_.back().miss)) <= stop && !crumbs_) break;
-      cell_size = std::exp(next_log_edge(tries_, fitted_power(tries_, filler_.has_volume() ? 3 : 2)));
+      if (std::abs(elementary::exp(tries_.back().miss) - 1) <= stop && !crumbs_) break;
+      cell_size = elementary::exp(next_log_edge(tries_, fitted_power(tries_, filler_.has_volume() ? 3 : 2)));
       if (tuning_ == FineTuning::Frame) tune_after(i + 1);
     }
     return std::move(best_);
@@ -113,7 +114,7 @@ class Search {
     }
     crumbs_ = fill.crumbs;
     const double count = std::max(0.5, static_cast<double>(budget_.count(fill)));
-    tries_.push_back({std::log(pose_.cell_size), std::log(count / static_cast<double>(budget_.wanted))});
+    tries_.push_back({elementary::log(pose_.cell_size), elementary::log(count / static_cast<double>(budget_.wanted))});
     const double miss = std::abs(tries_.back().miss) + (crumbs_ ? 1e6 : 0);
     if (miss < best_miss_) {
       best_miss_ = miss;
@@ -147,7 +148,7 @@ double expected_cell(const LatticeTable& table, const Budget& budget, double vol
   const double per_cell = budget.counts == Budget::Counts::Tets
                               ? static_cast<double>(table.tet_count)
                               : kSharedVertices * static_cast<double>(table.point_count);
-  return std::cbrt(volume * per_cell / static_cast<double>(budget.wanted));
+  return elementary::cbrt(volume * per_cell / static_cast<double>(budget.wanted));
 }
 
 }  // namespace tetsoup

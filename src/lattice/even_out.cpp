@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/elementary.h"
 #include "base/tet_geometry.h"
 #include "lattice/tet_complex.h"
 
@@ -35,7 +36,7 @@ class Evening {
   double mean_edge() const {
     double volume = 0;
     for (std::uint32_t t = 0; t < complex_.tet_count(); ++t) volume += complex_.volume(t);
-    return std::cbrt(6 * std::sqrt(2.0) * volume / std::max(1U, complex_.tet_count()));
+    return elementary::cbrt(6 * std::sqrt(2.0) * volume / std::max(1U, complex_.tet_count()));
   }
 
   bool is_unclear(std::uint32_t t) const {

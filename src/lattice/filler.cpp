@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/bits.h"
 #include "base/mesh_voxels.h"
 #include "base/require.h"
@@ -148,7 +149,9 @@ void Filler::mend(Fill& fill) {
 
 Shares Filler::shares(const TetMesh& mesh) const {
   const MeshVoxels voxels = count_mesh_voxels(mesh, volume_.inside, watch_);
-  const auto volume = [&](std::size_t count) { return static_cast<double>(count) * std::pow(grid_.voxel_size, 3); };
+  const auto volume = [&](std::size_t count) {
+    return static_cast<double>(count) * elementary::cube(grid_.voxel_size);
+  };
   return {volume(voxels.in_both), volume(voxels.in_mesh - voxels.in_both),
           volume(volume_.report.inside_voxels - voxels.in_both)};
 }
@@ -164,7 +167,7 @@ double Filler::smallest_cell() const {
   const Vec3d e = box.hi - box.lo;
   const double tets = static_cast<double>(table_.tet_count);
   // A little more than the cube root alone, since a cell more is counted along every axis.
-  const double most = std::cbrt(e.x * e.y * e.z * tets / kMaxTets) * 1.01 + longest_edge() / kMaxCells;
+  const double most = elementary::cbrt(e.x * e.y * e.z * tets / kMaxTets) * 1.01 + longest_edge() / kMaxCells;
   return std::max(finest_cell_size(grid_), most);
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/elementary.h"
+
 namespace tetsoup {
 namespace {
 
@@ -82,7 +84,7 @@ class Climber {
     if (search_.edge == FitSearch::Edge::Given) return 1 - guess.overlap;
     if (guess.tets == 0) return 1e300;
     const double ratio = guess.tets / search_.tets;
-    return (1 - guess.overlap) * std::cbrt(ratio) + std::max(0.0, std::abs(ratio - 1) - kFreeMiss);
+    return (1 - guess.overlap) * elementary::cbrt(ratio) + std::max(0.0, std::abs(ratio - 1) - kFreeMiss);
   }
 
   Place moved(Place place, int way, double step) const {

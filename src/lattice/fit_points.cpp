@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/bits.h"
 #include "base/whole.h"
 #include "lattice/five_tets.h"
@@ -106,7 +107,7 @@ FitPoints::FitPoints(const BitGrid& inside, std::size_t wanted, const LatticeTab
   for (const std::uint64_t word : inside.words) all += bit_count(word);
   // Every so many voxels along a line that winds through the grid evenly: x + a y + b z is a multiple of `every`.
   const int every = std::max(1, static_cast<int>(std::lround(static_cast<double>(all) / static_cast<double>(wanted))));
-  const int a = static_cast<int>(std::lround(std::cbrt(every))), b = std::max(1, a * a - 1);
+  const int a = static_cast<int>(std::lround(elementary::cbrt(every))), b = std::max(1, a * a - 1);
   const Vec3d centre = centre_of(grid_);
   const auto [nx, ny, nz] = grid_.size;
   for (int z = 0; z < nz; ++z) {
@@ -119,7 +120,7 @@ FitPoints::FitPoints(const BitGrid& inside, std::size_t wanted, const LatticeTab
     }
   }
   if (!points_.empty())
-    volume_ = std::pow(grid_.voxel_size, 3) * static_cast<double>(all) / static_cast<double>(points_.size());
+    volume_ = elementary::cube(grid_.voxel_size) * static_cast<double>(all) / static_cast<double>(points_.size());
 }
 
 Vec3d FitPoints::principal_rotation() const {
@@ -138,7 +139,8 @@ Vec3d FitPoints::principal_rotation() const {
                       r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
   if (turn < 0)
     for (std::size_t i = 0; i < 3; ++i) r[i][2] = -r[i][2];
-  return {std::atan2(r[2][1], r[2][2]), std::asin(std::clamp(-r[2][0], -1.0, 1.0)), std::atan2(r[1][0], r[0][0])};
+  return {elementary::atan2(r[2][1], r[2][2]), elementary::asin(std::clamp(-r[2][0], -1.0, 1.0)),
+          elementary::atan2(r[1][0], r[0][0])};
 }
 
 Guess FitPoints::guess(const Place& place) const {
@@ -184,7 +186,7 @@ Guess FitPoints::judge(const LatticeFrame& frame, const std::vector<std::uint16_
   std::array<double, kMostTetsPerCell> full{};  // points in a tet that is inside
   std::array<int, kMostTetsPerCell> least{};    // and in one that is kept
   for (std::size_t t = 0; t < tets; ++t) {
-    full[t] = table_.volume[t] * std::pow(frame.cell_size, 3) / volume_;
+    full[t] = table_.volume[t] * elementary::cube(frame.cell_size) / volume_;
     least[t] = std::max(1, ceil_to_int(std::min(rho_min_ * full[t], 1e6)));
   }
   Guess guess;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/elementary.h"
+
 namespace tetsoup {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr double kFinestRelativeCell = 0x1p-14;  ///< Of the largest coordinate:
 std::array<Vec3d, 3> rotated_axes(const Vec3d& angle) {
   const auto rotate = [&](Vec3d v) {
     const auto turn = [](double& a, double& b, double by) {
-      const double c = std::cos(by), s = std::sin(by);
+      const double c = elementary::cos(by), s = elementary::sin(by);
       const double a0 = a;
       a = c * a0 - s * b;
       b = s * a0 + c * b;

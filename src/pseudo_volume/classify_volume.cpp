@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/bits.h"
 #include "base/require.h"
 #include "pseudo_volume/band_bits.h"
@@ -205,7 +206,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
     report.largest_closure = largest_closure_voxels(trial.inside, field.distance, marks, watch) * frame.voxel_size;
   report.band = report.band_voxels * frame.voxel_size;
   report.k = field.d_max > 0 ? std::max(0.0, 1 - report.band / field.d_max) : 0;
-  report.volume = static_cast<double>(report.inside_voxels) * std::pow(frame.voxel_size, 3);
+  report.volume = static_cast<double>(report.inside_voxels) * elementary::cube(frame.voxel_size);
   report.consensus = trial.statistics.consensus;
   result.inside = std::move(trial.inside);
   result.votes = std::move(trial.votes);

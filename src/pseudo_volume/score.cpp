@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/bits.h"
+#include "base/elementary.h"
 #include "kernel/voxels_below.h"
 #include "pseudo_volume/unpadded.h"
 
@@ -151,7 +152,7 @@ VoteStatistics count_votes(const VoteGrid& votes, int rays, BitGrid& inside, Sta
 
 double score_solid(double surface, const BitGrid& solid, const VoteStatistics& s, StageWatch& watch) {
   if (s.inside == 0) return 0;
-  return std::pow(surface, kSurfaceExponent) * voxels_per_face(solid, watch) *
+  return elementary::exp(kSurfaceExponent * elementary::log(surface)) * voxels_per_face(solid, watch) *
          std::sqrt(std::max(0.0, s.consensus_outside));
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/elementary.h"
 #include "base/tet_faces.h"
 #include "base/tet_geometry.h"
 #include "quality/topology.h"
@@ -31,7 +32,7 @@ EdgeLengths measure_edges(const TetCorners& p) {
 }
 
 double mean_ratio(double volume, const EdgeLengths& edges) {
-  return volume > 0 ? 12 * std::pow(3 * volume, 2.0 / 3) / edges.sum_of_squares : 0;
+  return volume > 0 ? 12 * elementary::square(elementary::cbrt(3 * volume)) / edges.sum_of_squares : 0;
 }
 
 TetQuality measure_tet(const TetCorners& p) {
@@ -39,7 +40,7 @@ TetQuality measure_tet(const TetCorners& p) {
   if (!std::isfinite(volume) || volume == 0) return {};
   double smallest = std::numbers::pi;
   for (const double cosine : dihedral_cosines(p))
-    if (!std::isnan(cosine)) smallest = std::min(smallest, std::acos(cosine));
+    if (!std::isnan(cosine)) smallest = std::min(smallest, elementary::acos(cosine));
   return {static_cast<float>(mean_ratio(volume, measure_edges(p))), static_cast<float>(smallest)};
 }
 
@@ -66,7 +67,7 @@ class ShapeTally {
     add_mean_ratio(mean_ratio(volume, edges));
     if (volume > 0) sum_volume_ += volume, sum_square_ += volume * volume, ++positive_;
     double smallest = std::numbers::pi;
-    for (const double cosine : dihedral_cosines(p)) smallest = std::min(smallest, add_angle(std::acos(cosine)));
+    for (const double cosine : dihedral_cosines(p)) smallest = std::min(smallest, add_angle(elementary::acos(cosine)));
     smallest_angles_.push_back(smallest);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "base/groups.h"
 #include "base/tet_geometry.h"
 
@@ -40,7 +41,7 @@ Vec3d area_normal(const TetMesh& mesh, const Triangle& t) {
 /// Angle between two normals; NaN where one of the triangles has no area.
 double angle_between(const Vec3d& a, const Vec3d& b) {
   const double lengths = length(a) * length(b);
-  return lengths > 0 ? std::acos(std::clamp(dot(a, b) / lengths, -1.0, 1.0)) : std::nan("");
+  return lengths > 0 ? elementary::acos(std::clamp(dot(a, b) / lengths, -1.0, 1.0)) : std::nan("");
 }
 
 void measure_bends(const TetMesh& mesh, const std::vector<Triangle>& boundary, const Groups<EdgeUse>& edges,

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/elementary.h"
 #include "base/require.h"
 #include "base/tet_faces.h"
 #include "base/tet_geometry.h"
@@ -25,7 +26,7 @@ double largest_eigenvalue(double a, double b, double c, double d, double e, doub
   const double p = std::sqrt((x * x + y * y + z * z + 2 * off) / 6);
   if (p == 0) return mean;
   const double half_determinant = (x * (y * z - f * f) - d * (d * z - e * f) + e * (d * f - y * e)) / (2 * p * p * p);
-  return mean + 2 * p * std::cos(std::acos(std::clamp(half_determinant, -1.0, 1.0)) / 3);
+  return mean + 2 * p * elementary::cos(elementary::acos(std::clamp(half_determinant, -1.0, 1.0)) / 3);
 }
 
 /// Of the sum of g g^T over the gradients of the barycentric coordinates; infinite for a tet without volume.
@@ -108,7 +109,7 @@ Readiness assess_readiness(const TetMesh& mesh, const Quality& quality, const Ma
   };
   result.passed =
       std::all_of(result.checks.begin(), result.checks.end(), [](const ReadinessCheck& c) { return c.passed; });
-  result.mass = material.density * quality.volume * std::pow(material.metres_per_unit, 3);
+  result.mass = material.density * quality.volume * elementary::cube(material.metres_per_unit);
   result.stable_time_step = stable_time_step(mesh, material);
   return result;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/elementary.h"
 #include "base/vec.h"
 #include "scene/pins.h"
 #include "tetsoup/error.h"
@@ -19,7 +20,8 @@ Vec3d rotated(const Vec3d& rotation, const Vec3d& p) {
   const double angle = length(rotation);
   if (!(angle > 0)) return p;
   const Vec3d axis = rotation * (1 / angle);
-  return p * std::cos(angle) + cross(axis, p) * std::sin(angle) + axis * (dot(axis, p) * (1 - std::cos(angle)));
+  return p * elementary::cos(angle) + cross(axis, p) * elementary::sin(angle) +
+         axis * (dot(axis, p) * (1 - elementary::cos(angle)));
 }
 
 void move_pin(Simulation& simulation, const MovedPin& pin, double time) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/elementary.h"
 #include "base/vec.h"
 #include "scene/check.h"
 #include "scene/problem.h"
@@ -127,9 +128,12 @@ std::string name_of(const SceneSource& source) {
 
 Vec3d turned(const ScenePlace& place, const Vec3d& p) {
   const Vec3d a = radians(place.rotate);
-  const Vec3d x{p.x, std::cos(a.x) * p.y - std::sin(a.x) * p.z, std::sin(a.x) * p.y + std::cos(a.x) * p.z};
-  const Vec3d y{std::cos(a.y) * x.x + std::sin(a.y) * x.z, x.y, std::cos(a.y) * x.z - std::sin(a.y) * x.x};
-  return {std::cos(a.z) * y.x - std::sin(a.z) * y.y, std::sin(a.z) * y.x + std::cos(a.z) * y.y, y.z};
+  const Vec3d x{p.x, elementary::cos(a.x) * p.y - elementary::sin(a.x) * p.z,
+                elementary::sin(a.x) * p.y + elementary::cos(a.x) * p.z};
+  const Vec3d y{elementary::cos(a.y) * x.x + elementary::sin(a.y) * x.z, x.y,
+                elementary::cos(a.y) * x.z - elementary::sin(a.y) * x.x};
+  return {elementary::cos(a.z) * y.x - elementary::sin(a.z) * y.y,
+          elementary::sin(a.z) * y.x + elementary::cos(a.z) * y.y, y.z};
 }
 
 Vec3d placed(const ScenePlace& place, const Vec3d& p) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/elementary.h"
 #include "base/require.h"
 #include "simulate/check.h"
 
@@ -20,7 +21,7 @@ struct Quaternion {
 /// About x, then y, then z.
 Quaternion rotation_of(const Vec3d& angles) {
   const auto half = [](double angle, const Vec3d& axis) {
-    return Quaternion{axis * std::sin(angle / 2), std::cos(angle / 2)};
+    return Quaternion{axis * elementary::sin(angle / 2), elementary::cos(angle / 2)};
   };
   return half(angles.z, {0, 0, 1}) * half(angles.y, {0, 1, 0}) * half(angles.x, {1, 0, 0});
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "simulate/contact_constants.h"
 
 namespace tetsoup::simulate {
@@ -60,7 +61,7 @@ bool may_touch_itself(const World& world, const Part& part) {
   };
   for (const std::uint32_t v : surface.vertices) shift += left(v);
   shift = shift * (1 / static_cast<double>(surface.vertices.size()));
-  const double most = std::pow(kNeighbours * rest.piece.mean_edge / 2, 2);
+  const double most = elementary::square(kNeighbours * rest.piece.mean_edge / 2);
   return std::any_of(surface.vertices.begin(), surface.vertices.end(),
                      [&](std::uint32_t v) { return squared_length(left(v) - shift) > most; });
 }

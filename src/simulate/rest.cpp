@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "base/elementary.h"
 #include "base/tet_faces.h"
 #include "base/unions.h"
 #include "simulate/batches.h"
@@ -134,8 +135,8 @@ double Rest::damping_time(double h, double edge) const {
   constexpr double kAlways = 0.3;  // substeps: no beam crumpled with it
   constexpr double kTried = 12;    // edges in a substep, of those beams
   const double edges = h / wave_time(edge);
-  const double least = kAlways * std::min(1.0, std::pow(kTried / edges, 2));
-  return std::min(material.damping_time, h * std::max(least, std::pow(kMostEdges / edges, 2) - 1));
+  const double least = kAlways * std::min(1.0, elementary::square(kTried / edges));
+  return std::min(material.damping_time, h * std::max(least, elementary::square(kMostEdges / edges) - 1));
 }
 
 Rest make_rest(Piece piece, const SimMaterial& material) {

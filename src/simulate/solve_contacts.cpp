@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "simulate/world.h"
 
 namespace tetsoup::simulate {
@@ -57,7 +58,7 @@ struct Push {
   float share, most;
 
   explicit Push(double h)
-      : share(static_cast<float>(1 - std::exp(-h / kPushTime))), most(static_cast<float>(kPushSpeed * h)) {}
+      : share(static_cast<float>(1 - elementary::exp(-h / kPushTime))), most(static_cast<float>(kPushSpeed * h)) {}
 
   /// The displacement along the normal that a contact with this gap must have at least.
   float wanted(float gap) const { return gap >= 0 ? -gap : std::min(-gap * share, most); }

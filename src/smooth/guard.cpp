@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
+
 namespace tetsoup {
 
 namespace {
@@ -45,12 +47,12 @@ Shape shape_of(const TetCorners& p) {
 GuardedMesh::GuardedMesh(const TetMesh& start, const Connectivity& links, const ShapeLimits& limits,
                          std::span<const Vec3> sided)
     : start_(start), links_(links), mesh_(start), sided_(sided, start, links) {
-  const double min_cosine = std::cos(limits.min_dihedral + kMargin),
-               max_cosine = std::cos(limits.max_dihedral - kMargin);
+  const double min_cosine = elementary::cos(limits.min_dihedral + kMargin),
+               max_cosine = elementary::cos(limits.max_dihedral - kMargin);
   const double ratio = limits.max_edge_ratio * (1 - kMargin);
   if (!start.tets.empty()) {
     const TetCorners p = corners_of(start, start.tets[0]);
-    to_unit_ = std::exp2(-std::round(std::log2(length(p[1] - p[0]))));
+    to_unit_ = 1 / elementary::nearest_power_of_two(length(p[1] - p[0]));
   }
   limits_.reserve(start.tets.size());
   for (std::size_t t = 0; t < start.tets.size(); ++t) {
@@ -101,7 +103,7 @@ double GuardedMesh::min_dihedral() const {
     const auto cosines = dihedral_cosines(corners_of(mesh_, mesh_.tets[t]));
     cosine = std::max(cosine, *std::max_element(cosines.begin(), cosines.end()));
   }
-  return mesh_.tets.empty() ? 0 : std::acos(cosine);
+  return mesh_.tets.empty() ? 0 : elementary::acos(cosine);
 }
 
 }  // namespace tetsoup

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "base/elementary.h"
 #include "base/tet_geometry.h"
 #include "io/line_writer.h"
 #include "io/model_parts.h"
@@ -97,7 +98,7 @@ Drop plan_drop(const SceneInput& input, const StepLimit& limit) {
   drop.density = means.mass / means.volume;
   drop.poisson = means.poisson;
   drop.time_step = limit.default_step;
-  drop.edge = std::cbrt(6 * std::sqrt(2.0) * means.volume / std::max<double>(1, double(model.mesh.tets.size())));
+  drop.edge = elementary::cbrt(6 * std::sqrt(2.0) * means.volume / std::max<double>(1, double(model.mesh.tets.size())));
   const double weight = drop.density * kGravity * drop.height;
   drop.young = input.material_is_default ? kStiffness * weight : means.young;
   drop.stiffness_why =
@@ -108,7 +109,7 @@ Drop plan_drop(const SceneInput& input, const StepLimit& limit) {
   const double bearable = limit.bearable * explicit_step;
   if (bearable > 0 && bearable < limit.default_step) {
     if (input.material_is_default) {
-      drop.young *= std::pow(bearable / limit.default_step, 2);  // The bound goes with 1 / sqrt(young).
+      drop.young *= elementary::square(bearable / limit.default_step);  // The bound goes with 1 / sqrt(young).
       drop.stiffness_why = "the stiffest that this time step bears with these tets";
     } else {
       drop.time_step = 1 / std::ceil(1 / bearable);
