@@ -78,11 +78,11 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::open_temporary() {
   for (int tries = 0; tries < kMaxNameTries; ++tries) {
-    const fs::path name = unused_name_beside(target_, ".tmp");
+    fs::path name = unused_name_beside(target_, ".tmp");
     errno = 0;
     file_.reset(std::fopen(name.c_str(), "wbx"));
     if (file_) {
-      temporary_ = name;
+      temporary_ = std::move(name);  // A copy could run out of memory, and leave the file.
       return;
     }
     if (errno != EEXIST) break;
@@ -132,16 +132,22 @@ void AtomicFile::commit_together(std::span<AtomicFile> files) {
 
 void AtomicFile::close() {
   if (std::fflush(file_.get()) != 0) fail_with_errno();
+  if (!temporary_.empty()) bring_to_disk();
   if (std::fclose(file_.release()) != 0) fail_with_errno();
+}
+
+// Else a power cut may keep the new name and lose what was written. Not every file system can tell.
+void AtomicFile::bring_to_disk() {
+  if (::fsync(::fileno(file_.get())) != 0 && errno != EINVAL && errno != ENOTSUP && errno != ENOSYS) fail_with_errno();
 }
 
 // Where the file system knows no second names there is no way back, but by then only a race can make a rename fail.
 void AtomicFile::keep_replaced_file() {
   if (temporary_.empty() || !existed_) return;
-  const fs::path name = unused_name_beside(target_, ".old");
+  fs::path name = unused_name_beside(target_, ".old");
   std::error_code error;
   fs::create_hard_link(target_, name, error);
-  if (!error) replaced_ = name;
+  if (!error) replaced_ = std::move(name);
 }
 
 void AtomicFile::take_name() {

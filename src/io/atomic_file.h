@@ -1,5 +1,5 @@
-// Files that appear whole or not at all: what is written goes to a temporary beside the target and is renamed at the
-// end. Whatever happens before, an existing file stays as it was and no temporary is left.
+// Files that appear whole or not at all: what is written goes to a temporary beside the target, is brought to the disk,
+// and is renamed at the end. Whatever happens before, an existing file stays as it was and no temporary is left.
 #pragma once
 
 #include <cstddef>
@@ -36,6 +36,7 @@ class AtomicFile {
   void open_temporary();
   void open_directly();
   void close();
+  void bring_to_disk();
   void keep_replaced_file();
   void take_name();
   void give_name_back() noexcept;

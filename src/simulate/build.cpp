@@ -107,10 +107,51 @@ void add_body(World& world, const TetMesh& mesh, const Pose& pose, double scale,
   world.report.parts += m.rests.size();
 }
 
+/// One by one: where memory runs out, insert() may leave what was there empty.
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
+  for (const T& item : from) to.push_back(item);
 }
+
+template <class T>
+void shorten(std::vector<T>& list, std::size_t size) {
+  list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
+}
+
+/// Takes back what has been added since it was made, unless that was kept: memory may run out half way.
+class Addition {
+ public:
+  explicit Addition(World& world)
+      : world_(world),
+        rests_(world.rests.size()),
+        surfaces_(world.surfaces.size()),
+        nets_(world.nets.size()),
+        bodies_(world.bodies.size()),
+        parts_(world.parts.size()),
+        slots_(world.places.size()),
+        report_(world.report) {}
+  ~Addition() {
+    if (kept_) return;
+    shorten(world_.rests, rests_);
+    shorten(world_.surfaces, surfaces_);
+    shorten(world_.nets, nets_);
+    shorten(world_.bodies, bodies_);
+    shorten(world_.parts, parts_);
+    shorten(world_.places, slots_);
+    shorten(world_.motions, slots_);
+    shorten(world_.owners, slots_);
+    world_.report = report_;
+  }
+  Addition(const Addition&) = delete;
+  Addition& operator=(const Addition&) = delete;
+  void keep() { kept_ = true; }
+
+ private:
+  World& world_;
+  std::size_t rests_, surfaces_, nets_, bodies_, parts_, slots_;
+  SimulationReport report_;
+  bool kept_ = false;
+};
 
 }  // namespace
 
@@ -123,6 +164,7 @@ void add_bodies(World& world, const TetMesh& mesh, const SimMaterial& material, 
       makes.push_back(make(mesh, material, poses[i].scale * material.elastic.metres_per_unit, world.options));
     check_reach(makes.back(), poses[i]);
   }
+  Addition addition(world);
   auto m = makes.begin();
   std::size_t first_rest = 0, first_surface = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -137,6 +179,7 @@ void add_bodies(World& world, const TetMesh& mesh, const SimMaterial& material, 
     add_body(world, mesh, poses[i], poses[i].scale * material.elastic.metres_per_unit, *m, first_rest, first_surface);
   }
   world.start = world.places;
+  addition.keep();
 }
 
 void hold_vertex(World& world, std::uint32_t slot, Hold hold) {
