@@ -58,11 +58,13 @@ double fit_to_surface(const Connectivity& links, const BitGrid& inside, int pass
   for (int pass = 0; pass < passes; ++pass) {
     watch.enter_part(kShareOfPasses * pass / passes, kShareOfPasses * (pass + 1) / passes);
     const auto aims = aim_at_surface(links, mesh, inside, kReach * edge, level, watch);
+    mesh.look_around(watch);
     relax(links, aims, edge, pass % 2 == 0 ? Sweep::Forwards : Sweep::Backwards, mesh, watch);
     // Chords and what blunts edges take volume: the next pass aims as far outside as gives it back.
     if (wanted > 0) level += (wanted - volume_of(mesh)) / boundary_area(links, mesh);
   }
   watch.enter_part(kShareOfPasses, 1);
+  mesh.look_around(watch);
   if (wanted > 0) approach_volume(links, wanted, mesh, watch);
   return wanted;
 }

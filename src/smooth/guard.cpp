@@ -46,7 +46,7 @@ Shape shape_of(const TetCorners& p) {
 
 GuardedMesh::GuardedMesh(const TetMesh& start, const Connectivity& links, const ShapeLimits& limits,
                          std::span<const Vec3> sided)
-    : start_(start), links_(links), mesh_(start), sided_(sided, start, links) {
+    : start_(start), links_(links), mesh_(start), sheets_(links, start), sided_(sided, start, links) {
   const double min_cosine = elementary::cos(limits.min_dihedral + kMargin),
                max_cosine = elementary::cos(limits.max_dihedral - kMargin);
   const double ratio = limits.max_edge_ratio * (1 - kMargin);
@@ -84,10 +84,12 @@ bool GuardedMesh::surroundings_are_sound(std::uint32_t vertex) const {
 bool GuardedMesh::move(std::uint32_t vertex, const Vec3d& target) {
   const Vec3 before = mesh_.vertices[vertex];
   const Vec3d from = to_double(before), way = target - from;
+  const bool on_boundary = !links_.boundary_triangles[vertex].empty();
   for (double share = 1; share > kShortestMove; share /= 2) {
     mesh_.vertices[vertex] = to_float(from + way * share);
     if (share == 1 && mesh_.vertices[vertex] == before) return true;
     if (!surroundings_are_sound(vertex)) continue;
+    if (on_boundary && !sheets_.allow(vertex, before, mesh_)) continue;
     if (!sided_.empty() && !sided_.are_kept(vertex, before, mesh_)) continue;
     if (share < 1) ++shortened_moves_;
     return share == 1;

@@ -8,6 +8,7 @@
 
 #include "base/tet_geometry.h"
 #include "smooth/connectivity.h"
+#include "smooth/sheets.h"
 #include "smooth/sided_points.h"
 #include "tetsoup/types.h"
 
@@ -24,20 +25,28 @@ struct ShapeLimits {
 };
 
 /// Every tet keeps, in the float positions that are stored, a share of its first volume and the limits, or what it had
-/// first where that was worse; and given points stay on their side of the boundary. Refers to the start and the links:
-/// both must outlive it.
+/// first where that was worse; the boundary does not come to cross itself; and given points stay on their side of it.
+/// Refers to the start and the links: both must outlive it.
 class GuardedMesh {
  public:
   GuardedMesh(const TetMesh& start, const Connectivity& links, const ShapeLimits& limits,
               std::span<const Vec3> sided = {});
+
+  /// Goes before a round of moves: a vertex of the boundary goes only so far from where this saw it that it can meet
+  /// nothing unseen.
+  void look_around(StageWatch& watch) { sheets_.look_around(mesh_, watch); }
 
   /// Moves a vertex all the way to the target, or a half, a quarter, ... of it, or not at all.
   /// @return  Whether it went all the way.
   bool move(std::uint32_t vertex, const Vec3d& target);
 
   /// Puts a vertex anywhere; whoever does it asks is_sound() about the tets afterwards. Sides are forgotten.
-  void place(std::uint32_t vertex, const Vec3& position) { mesh_.vertices[vertex] = position; }
+  void place(std::uint32_t vertex, const Vec3& position) {
+    mesh_.vertices[vertex] = position;
+    sheets_.forget();
+  }
   bool is_sound(std::size_t tet) const;
+  const Sheets& sheets() const { return sheets_; }
 
   Vec3d at(std::uint32_t vertex) const { return to_double(mesh_.vertices[vertex]); }
   Vec3d start_of(std::uint32_t vertex) const { return to_double(start_.vertices[vertex]); }
@@ -63,6 +72,7 @@ class GuardedMesh {
   TetMesh mesh_;
   std::vector<Limit> limits_;
   double to_unit_ = 1;  ///< A power of two that makes edges about 1 long, so that no product overflows.
+  Sheets sheets_;
   SidedPoints sided_;
   std::size_t shortened_moves_ = 0;
 };

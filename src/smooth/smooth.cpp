@@ -20,6 +20,7 @@ namespace tetsoup {
 namespace {
 
 constexpr int kInteriorSweeps = 2;       // A pass moves the boundary by a fraction of an edge; the effect decays fast.
+constexpr double kParting = 0.2;         // Of the way to the mean of its neighbours.
 constexpr double kShareOfPasses = 0.95;  // Of the stage's time; the rest goes into the total volume.
 
 void check(const SmoothOptions& options) {
@@ -89,6 +90,16 @@ void add_outer_shell(const BitGrid& inside, std::vector<Vec3>& points) {
   }
 }
 
+/// Copies of a vertex part, each towards its own tets: sheets that touch are none that a move could take for one.
+void pull_apart(const Connectivity& links, GuardedMesh& mesh, StageWatch& watch) {
+  mesh.look_around(watch);
+  for (const std::uint32_t v : mesh.sheets().doubled()) {
+    Vec3d offset;
+    for (const std::uint32_t neighbour : links.neighbours[v]) offset += mesh.at(neighbour) - mesh.at(v);
+    mesh.move(v, mesh.at(v) + offset * (kParting / static_cast<double>(links.neighbours[v].size())));
+  }
+}
+
 /// Fairing passes, and the volume put right.
 void fair(const Connectivity& links, const SmoothOptions& options, GuardedMesh& mesh, StageWatch& watch) {
   const BoundaryFlow flow(links);
@@ -96,10 +107,12 @@ void fair(const Connectivity& links, const SmoothOptions& options, GuardedMesh& 
     watch.enter_part(kShareOfPasses * pass / options.passes, kShareOfPasses * (pass + 1) / options.passes);
     std::vector<Vec3d> targets = fair_boundary(links, mesh, flow, options.strength);
     restore_swept_volume(links, mesh, flow, targets);
+    mesh.look_around(watch);
     move_boundary(links, targets, mesh, watch);
     relax_interior(links, mesh, watch);
   }
   watch.enter_part(kShareOfPasses, 1);
+  mesh.look_around(watch);
   if (!mesh.has_sided_points()) return restore_total_volume(links, mesh, watch);
   double volume = 0;
   for (std::size_t t = 0; t < mesh.mesh().tets.size(); ++t) volume += mesh.start_volume(t);
@@ -140,6 +153,7 @@ SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const 
   std::vector<Vec3> sided = pulled_inside(target.enclosed, mesh);
   if (target.stay == Stay::WithinVolume && target.inside != nullptr) add_outer_shell(*target.inside, sided);
   GuardedMesh moving(mesh, links, {options.min_dihedral, options.max_dihedral, options.max_edge_ratio}, sided);
+  if (options.passes > 0) pull_apart(links, moving, watch);
   const bool snaps = options.snap == Snap::Surface && target.inside != nullptr && options.passes > 0;
   if (!snaps) {
     fair(links, options, moving, watch);

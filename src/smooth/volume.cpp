@@ -96,6 +96,9 @@ std::vector<char> unsound_parts(const Connectivity& links, const GuardedMesh& me
   for (std::size_t t = 0; t < links.part_of_tet.size(); ++t) {
     if (!mesh.is_sound(t)) unsound[links.part_of_tet[t]] = 1;
   }
+  mesh.sheets().visit_crossings(mesh.mesh(), [&](std::uint32_t v, std::uint32_t triangle) {
+    unsound[links.part_of_vertex[v]] = unsound[links.part_of_vertex[links.triangles[triangle][0]]] = 1;
+  });
   return unsound;
 }
 
@@ -134,6 +137,7 @@ void restore_total_volume(const Connectivity& links, GuardedMesh& mesh, StageWat
   const TetMesh smoothed = mesh.mesh();
   std::vector<double> share(links.part_count, 1.0);
   for (;;) {
+    mesh.look_around(watch);
     keeper.offset_until_kept(watch);
     const std::vector<double> lack = keeper.missing(kKept);
     std::vector<char> failed = unsound_parts(links, mesh);
