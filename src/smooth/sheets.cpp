@@ -191,7 +191,7 @@ void Sheets::look_around(const TetMesh& mesh, StageWatch& watch) {
 
 Sheets::Disc Sheets::disc_around(std::uint32_t triangle, const TetMesh& mesh) const {
   const Triangle& corners = links_->triangles[triangle];
-  const Corners c = corners_at(mesh, corners);
+  const TriangleCorners c = corners_at(mesh, corners);
   Disc disc{(c[0] + c[1] + c[2]) * (1.0 / 3), 0, 0, triangle};
   for (std::size_t i = 0; i < 3; ++i) {
     disc.radius = std::max(disc.radius, length(c[i] - disc.centre));
@@ -259,7 +259,7 @@ bool Sheets::is_open_to_one_side(std::uint32_t vertex, const TetMesh& mesh) cons
   for (const auto& list : {links_->boundary_triangles[vertex], around_[vertex]}) {
     for (const std::uint32_t triangle : list) {
       if (count == kMostAround) return false;
-      const Corners t = corners_at(mesh, links_->triangles[triangle]);
+      const TriangleCorners t = corners_at(mesh, links_->triangles[triangle]);
       normals[count] = cross(t[1] - t[0], t[2] - t[0]);
       sum += normals[count++];
     }
@@ -275,11 +275,11 @@ bool Sheets::is_open_to_one_side(std::uint32_t vertex, const TetMesh& mesh) cons
 bool Sheets::crossed_before(std::uint32_t vertex, std::uint32_t own, std::uint32_t other, const TetMesh& mesh,
                             const Vec3& before) const {
   const auto facet = [&](std::uint32_t t) {
-    Corners corners = corners_at(mesh, links_->triangles[t]);
+    TriangleCorners corners = corners_at(mesh, links_->triangles[t]);
     for (std::size_t i = 0; i < 3; ++i) {
       if (links_->triangles[t][i] == vertex) corners[i] = to_double(before);
     }
-    return Facet(corners);
+    return BoundaryFacet(corners);
   };
   return cross_each_other(facet(own), facet(other));
 }
@@ -288,21 +288,21 @@ std::uint32_t Sheets::crossed_by(std::uint32_t vertex, const TetMesh& mesh, cons
   const auto near = std::span(near_[boundary_index_[vertex]]);
   const bool is_open = is_open_to_one_side(vertex, mesh);
   if (near.empty() && is_open) return kNone;
-  thread_local Star star;
+  BoundaryFan& fan = fan_;
   const Vec3d at = to_double(mesh.vertices[vertex]);
-  star.points.assign(1, at), star.box = {at, at}, star.facets.clear();
+  fan.points.assign(1, at), fan.box = {at, at}, fan.facets.clear();
   for (const std::uint32_t w : links_->boundary_neighbours[vertex]) {
-    star.points.push_back(to_double(mesh.vertices[w]));
-    star.box = {min(star.box.lo, star.points.back()), max(star.box.hi, star.points.back())};
+    fan.points.push_back(to_double(mesh.vertices[w]));
+    fan.box = {min(fan.box.lo, fan.points.back()), max(fan.box.hi, fan.points.back())};
   }
   const auto own = links_->boundary_triangles[vertex];
-  for (const std::uint32_t t : own) star.facets.emplace_back(corners_at(mesh, links_->triangles[t]));
+  for (const std::uint32_t t : own) fan.facets.emplace_back(corners_at(mesh, links_->triangles[t]));
   const auto find = [&](std::span<const std::uint32_t> triangles) {
     for (const std::uint32_t t : triangles) {
-      const Facet facet(corners_at(mesh, links_->triangles[t]));
-      if (star.is_beside(facet)) continue;
+      const BoundaryFacet facet(corners_at(mesh, links_->triangles[t]));
+      if (fan.is_beside(facet)) continue;
       for (std::size_t i = 0; i < own.size(); ++i) {
-        if (own[i] == t || !cross_each_other(star.facets[i], facet)) continue;
+        if (own[i] == t || !cross_each_other(fan.facets[i], facet)) continue;
         if (before == nullptr || !crossed_before(vertex, own[i], t, mesh, *before)) return t;
       }
     }

@@ -7,6 +7,7 @@
 #include "base/groups.h"
 #include "base/parallel.h"
 #include "smooth/connectivity.h"
+#include "smooth/facets.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
@@ -81,6 +82,7 @@ class Sheets {
   std::size_t refused_ = 0;                       ///< Moves beyond reach since the last look.
   std::vector<std::vector<std::uint32_t>> near_;  ///< By boundary vertex: triangles of `around_` not among them.
   std::vector<std::uint32_t> boundary_index_;
+  mutable BoundaryFan fan_;  ///< Memory of crossed_by().
   Vec3d lo_;
   double bucket_ = 1, largest_ = 0;  ///< Edge of a bucket; largest distance of a triangle's corner from its centre.
   std::array<int, 3> count_{1, 1, 1};
