@@ -20,11 +20,18 @@ enum class Placement {
   Entry,    ///< At the run's first voxel, as the paper can also be read; dilates the result by the band.
 };
 
-/// What becomes of space that the rays call outside although the soup encloses it.
+/// What becomes of space that the soup encloses although nothing says that it is solid.
 enum class Cavities {
-  Fill,  ///< It is inside: overlapping closed parts become their union, nested shells become solid. Holes up to the
-         ///< band let nothing in.
-  Keep,  ///< It stays outside, as parity has it: the overlap of two closed parts is hollow.
+  Auto,  ///< Hollow where evidence says so: bounded by closed, consistently oriented shells that turn their outside to
+         ///< it; elsewhere filled.
+  Fill,  ///< It is inside: nested shells become solid. Holes up to the band let nothing in.
+  Keep,  ///< Hollow wherever the rays find it outside.
+};
+
+/// A space inside a solid that was left hollow.
+struct SoupCavity {
+  double volume = 0;
+  std::uint32_t part = 0;  ///< Of the soup's parts, the shell around it.
 };
 
 /// At most one of `k`, `band_voxels` and `band`; none: automatic.
@@ -34,7 +41,7 @@ struct PseudoVolumeOptions {
   std::optional<double> band;         ///< Event where the distance is below this length.
   int rays = 26;                      ///< 26: both ways along 13 axes; 13: one way.
   Placement placement = Placement::Closest;
-  Cavities cavities = Cavities::Fill;
+  Cavities cavities = Cavities::Auto;
   bool operator==(const PseudoVolumeOptions&) const = default;
 };
 
@@ -55,6 +62,8 @@ struct PseudoVolumeReport {
   /// The automatic choice is not over: wider candidates would need the distance known this far, in voxels.
   std::optional<double> wants_band_voxels;
   std::size_t cavity_voxels = 0;  ///< Voxels that were added because the soup encloses them.
+  std::vector<SoupCavity> cavities;  ///< What was left hollow by evidence.
+  double exact_share = 0;  ///< Of the soup's triangles, those of sound parts: there the sign is that of exact crossings.
   /// Diameter of the largest hole that was closed: twice the largest distance between the soup and the surface of the
   /// inside; 0 where that is nowhere farther than 0.9 voxels. Where it is small beside the model, little was assumed.
   double largest_closure = 0;

@@ -1,7 +1,9 @@
 // tetsoup, stage 1: what is this soup, and which of its triangles can be used?
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -39,12 +41,37 @@ struct SoupReport {
       notes;  ///< What the user should know, and the option that changes it: one sentence or two each.
 };
 
+/// Triangles that hang together through edges.
+struct SoupPart {
+  std::size_t triangles = 0;
+  bool sound = false;     ///< Closed: every edge has an even number of its triangles. A ray crosses it evenly.
+  bool oriented = false;  ///< Sound, and as many triangles run along each edge one way as the other.
+  double volume = 0;      ///< Signed, of an oriented part: negative where it is turned inside out.
+  Box3 box;
+};
+
+/// What of a soup can be trusted: where every ray crosses a closed surface, crossings tell inside from outside exactly.
+/// The only place that knows windings; they are evidence for sound parts and leave no trace in others.
+struct SoupParts {
+  std::vector<std::uint32_t> part_of_triangle;
+  std::vector<SoupPart> parts;         ///< In the order of their first triangles.
+  std::vector<std::uint8_t> turned;    ///< Of every triangle: it ran from its lowest vertex to the highest.
+  std::vector<std::array<std::uint32_t, 2>> odd_edges;  ///< Edges of an odd number of triangles: rims of holes.
+
+  bool all_sound() const {
+    for (const SoupPart& part : parts)
+      if (!part.sound) return false;
+    return true;
+  }
+};
+
 /// The soup in its canonical form: distinct positions in lexicographic order, each triangle's indices ascending,
 /// triangles in order and unique. Winding, triangle order and vertex order of the input leave no trace, so no later
 /// stage can see them.
 struct CleanSoup {
   TriangleSoup soup;
   SoupReport report;
+  SoupParts parts;
 };
 
 /// Drops what cannot be used, counts all of it, and describes the rest.

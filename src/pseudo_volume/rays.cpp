@@ -39,9 +39,29 @@ Sheet nth_sheet(std::size_t kind, int n, const GridFrame& frame) {
 
 /// What 64 rays that go the same way remember from voxel to voxel.
 struct Rays {
-  std::uint64_t parity = 0;  ///< Inside.
-  std::uint64_t fired = 0;   ///< The run of band voxels they are in has had its event.
+  std::uint64_t parity = 0;   ///< Inside.
+  std::uint64_t fired = 0;    ///< The run of band voxels they are in has had its event.
+  std::uint64_t stretch = 0;  ///< The event was raised in the stretch of unsound voxels they are in.
 };
+
+enum class Way { Forward, Back };
+
+/// Rays enter a word of voxels where the soup's own crossings count, but for the unsound voxels near its rims: there a run
+/// has its one event, unless it was crossed already.
+/// @param crossed  Exact crossings between these voxels and those one step ahead on the axis, if not both are unsound.
+template <Way way>
+std::uint64_t enter_exact(Rays& rays, std::uint64_t band, std::uint64_t unsound, std::uint64_t ahead,
+                          std::uint64_t lowest, std::uint64_t crossed) {
+  const std::uint64_t in = way == Way::Back ? crossed & ~rays.stretch : 0;
+  const std::uint64_t open = band & unsound & ~rays.fired & ~in;
+  const std::uint64_t now = open & ahead, after = open & lowest & ~ahead;
+  rays.stretch = (rays.stretch | now | after) & unsound & band;
+  const std::uint64_t out = way == Way::Forward ? crossed & ~rays.stretch : 0;
+  rays.fired = (rays.fired & band) | now | after | in | out;
+  const std::uint64_t inside = rays.parity ^ in ^ now;
+  rays.parity = inside ^ after ^ out;
+  return inside;
+}
 
 /// Rays enter a word of voxels: bits of those that call it inside.
 /// @param ahead, lowest  As in kernel::AxisEvents, in the direction of the rays.
@@ -84,11 +104,14 @@ class RayFront {
     for (std::uint32_t w = reach.begin; w < reach.end; ++w) {
       ThreeWays rays = words_[w];
       const Rays above = words_[w + 1][0], up = rays[2];
-      rays[0] = {rays[0].parity >> 1 | above.parity << 63, rays[0].fired >> 1 | above.fired << 63};
-      rays[2] = {up.parity << 1 | from_below.parity, up.fired << 1 | from_below.fired};
-      from_below = {up.parity >> 63, up.fired >> 63};
+      rays[0] = {rays[0].parity >> 1 | above.parity << 63, rays[0].fired >> 1 | above.fired << 63,
+                 rays[0].stretch >> 1 | above.stretch << 63};
+      rays[2] = {up.parity << 1 | from_below.parity, up.fired << 1 | from_below.fired,
+                 up.stretch << 1 | from_below.stretch};
+      from_below = {up.parity >> 63, up.fired >> 63, up.stretch >> 63};
       if (w + 1 == words) rays[2].parity &= last_mask;
-      if (band[w] == 0) rays[0].fired = rays[1].fired = rays[2].fired = 0;
+      if (band[w] == 0)
+        for (Rays& way : rays) way.fired = way.stretch = 0;
       if ((band[w] | rays[0].parity | rays[1].parity | rays[2].parity) != 0) {
         meet(w, rays);
         active_.include(w);
@@ -127,16 +150,39 @@ class RowRay {
   std::uint64_t band_before_ = 0, carry_ = 0, late_flip_ = 0, parity_ = 0;
 };
 
-enum class Way { Forward, Back };
+/// The same, voxel by voxel, where exact crossings count; along a row the three axes of a sheet are one.
+class ExactRowRay {
+ public:
+  template <Way way>
+  std::uint64_t enter(std::uint64_t band, std::uint64_t unsound, std::uint64_t ahead, std::uint64_t lowest,
+                      std::uint64_t crossed) {
+    if ((band | crossed) == 0) {
+      rays_.fired = rays_.stretch = 0;
+      return 0 - rays_.parity;
+    }
+    std::uint64_t inside = 0;
+    for (int i = 0; i < 64; ++i) {
+      const int x = way == Way::Forward ? i : 63 - i;
+      const auto bit = [x](std::uint64_t word) { return word >> x & 1U; };
+      inside |= enter_exact<way>(rays_, bit(band), bit(unsound), bit(ahead), bit(lowest), bit(crossed)) << x;
+    }
+    return inside;
+  }
+
+ private:
+  Rays rays_;  ///< One ray: the lowest bits.
+};
 
 /// Whose rays are cast side by side: their rows are half a page, and what is known of them stays in a core's cache.
 constexpr std::int64_t kSheetsAtOnce = 4;
 
 class RayCaster {
  public:
-  RayCaster(const BandBits& band, const EventStore& events, int rays, VoteGrid& votes)
-      : band_(band.bits),
-        ranges_(band.ranges),
+  RayCaster(const BandBits& band, const EventStore& events, const ExactCrossings* exact, int rays, VoteGrid& votes)
+      : band_(exact == nullptr ? band.bits : exact->near.bits),
+        ranges_(exact == nullptr ? band.ranges : exact->near.ranges),
+        events_band_(band.bits),
+        exact_(exact),
         events_(events),
         votes_(votes),
         words_(band.bits.words_per_row),
@@ -187,8 +233,12 @@ class RayCaster {
       const kernel::SheetEvents& axes = events[w];
       const auto meet = [&](std::size_t k) {
         // Rays that go back by dx a row are those of the axis that goes forward by -dx, met from its other end.
-        const kernel::AxisEvents& axis = axes[way == Way::Forward ? k : 2 - k];
-        return enter(three[k], band[w], way == Way::Forward ? axis.ahead : axis.behind, axis.lowest);
+        const std::size_t of_sheet = way == Way::Forward ? k : 2 - k;
+        const kernel::AxisEvents& axis = axes[of_sheet];
+        const std::uint64_t ahead = way == Way::Forward ? axis.ahead : axis.behind;
+        if (exact_ == nullptr) return enter(three[k], band[w], ahead, axis.lowest);
+        return enter_exact<way>(three[k], events_band_.words[row + w], exact_->unsound.words[row + w], ahead,
+                                axis.lowest, exact_->planes[3 * rays.sheet.kind + of_sheet].words[row + w]);
       };
       add_votes(votes[w], meet(0), meet(1), meet(2));
     });
@@ -203,6 +253,10 @@ class RayCaster {
     const auto vote = [&](std::size_t w, std::uint64_t inside) {
       if (inside != 0) add_votes(votes_.words[row + w], inside & row_mask(band_.frame.size[0], w), 0, 0);
     };
+    if (exact_ != nullptr) {
+      cast_exactly_along_row(row, reach, events, vote);
+      return;
+    }
     RowRay forward;
     for (std::size_t w = reach.begin; w < words_; ++w) {
       const kernel::AxisEvents& axis = events[w];
@@ -216,8 +270,23 @@ class RayCaster {
     }
   }
 
-  const BitGrid& band_;
-  const std::vector<WordRange>& ranges_;
+  template <class Events, class Vote>
+  void cast_exactly_along_row(std::size_t row, const WordRange& reach, const Events& events, const Vote& vote) const {
+    const auto meet = [&]<Way way>(ExactRowRay& ray, std::size_t w) {
+      const kernel::AxisEvents& axis = events[w];
+      vote(w, ray.enter<way>(events_band_.words[row + w], exact_->unsound.words[row + w],
+                             way == Way::Forward ? axis.ahead : axis.behind, axis.lowest,
+                             exact_->planes.back().words[row + w]));
+    };
+    ExactRowRay forward, back;
+    for (std::size_t w = reach.begin; w < words_; ++w) meet.template operator()<Way::Forward>(forward, w);
+    for (std::size_t w = reach.end; both_ways_ && w-- > 0;) meet.template operator()<Way::Back>(back, w);
+  }
+
+  const BitGrid& band_;                    ///< Where anything may happen to a ray,
+  const std::vector<WordRange>& ranges_;   ///< and in which words of a row.
+  const BitGrid& events_band_;             ///< Where volume events may be.
+  const ExactCrossings* exact_;            ///< Null: volume events alone.
   const EventStore& events_;
   VoteGrid& votes_;
   std::size_t words_;
@@ -227,9 +296,9 @@ class RayCaster {
 
 }  // namespace
 
-void cast_rays(const BandBits& band, const EventStore& events, int rays, VoteGrid& votes, StageWatch& watch,
-               double begin, double end) {
-  const RayCaster caster(band, events, rays, votes);
+void cast_rays(const BandBits& band, const EventStore& events, const ExactCrossings* exact, int rays, VoteGrid& votes,
+               StageWatch& watch, double begin, double end) {
+  const RayCaster caster(band, events, exact, rays, votes);
   const GridFrame& frame = band.bits.frame;
   for (std::size_t kind = 0; kind < kernel::kSheetKinds; ++kind) {
     const double share = (end - begin) / kernel::kSheetKinds, from = begin + share * static_cast<double>(kind);

@@ -3,8 +3,9 @@
 
 #include "base/parallel.h"
 #include "base/vec.h"
-#include "soup/diagnose.h"
 #include "base/merge_vertices.h"
+#include "soup/diagnose.h"
+#include "soup/find_parts.h"
 #include "tetsoup/soup.h"
 
 namespace tetsoup {
@@ -61,16 +62,23 @@ OrderedTriangles ordered_triangles(std::size_t vertex_count, const std::vector<T
   return ordered;
 }
 
-std::vector<Triangle> without_duplicates(const OrderedTriangles& ordered) {
-  std::vector<Triangle> triangles;
+/// The triangles without duplicates, and for each what its copies say of its winding.
+void drop_duplicates(const OrderedTriangles& ordered, std::vector<Triangle>& triangles,
+                     std::vector<WindingOf>& windings) {
   triangles.reserve(ordered.items().size());
+  windings.reserve(ordered.items().size());
   for (std::uint32_t low = 0; low < ordered.size(); ++low) {
     for (const RestOfTriangle& t : ordered[low]) {
       const Triangle triangle{low, t.middle, t.high};
-      if (triangles.empty() || triangles.back() != triangle) triangles.push_back(triangle);
+      const WindingOf winding = t.turned ? WindingOf::Turned : WindingOf::Ascending;
+      if (triangles.empty() || triangles.back() != triangle) {
+        triangles.push_back(triangle);
+        windings.push_back(winding);
+      } else if (windings.back() != winding) {
+        windings.back() = WindingOf::Both;
+      }
     }
   }
-  return triangles;
 }
 
 bool has_no_area(const std::vector<Vec3>& vertices, const Triangle& t) {
@@ -103,8 +111,10 @@ CleanSoup clean_soup(const TriangleSoup& soup, const Progress& progress) {
   watch.enter_part(0.6, 0.9);
   diagnose(ordered, report, watch);
 
-  clean.soup.triangles = without_duplicates(ordered);
+  std::vector<WindingOf> windings;
+  drop_duplicates(ordered, clean.soup.triangles, windings);
   report.duplicates = triangles.size() - clean.soup.triangles.size();
+  clean.parts = find_parts(clean.soup, windings, watch);
   watch.enter_part(0.9, 1);
   report.zero_area = count_without_area(clean.soup, watch);
   report.used_triangles = clean.soup.triangles.size();

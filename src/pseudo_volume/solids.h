@@ -1,0 +1,29 @@
+// The inside of closed surfaces, from what the rows of voxels cross: exact however close two walls are.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel.h"
+#include "tetsoup/pseudo_volume.h"
+#include "tetsoup/soup.h"
+
+namespace tetsoup {
+
+/// Sound parts that are counted together. Inside is where the windings of a nest's parts do not add up to zero, or,
+/// where windings say nothing, where the number of crossings is odd; the solids are the union of all nests.
+struct Nests {
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> of_part;  ///< kNone: not sound, or not to be counted.
+  std::vector<std::uint8_t> by_winding;
+  std::vector<SoupCavity> cavities;  ///< Shells that turn their outside to what they hold.
+};
+
+/// @param around  Of every part the innermost sound part that contains it, or kNone.
+Nests make_nests(const SoupParts& parts, std::span<const std::uint32_t> around, Cavities cavities);
+
+/// Voxels whose centres lie inside.
+BitGrid fill_solids(const CleanSoup& soup, const Nests& nests, const GridFrame& frame, StageWatch& watch);
+
+}  // namespace tetsoup
