@@ -49,6 +49,11 @@ GridFrame make_grid(const CleanSoup& soup, const DistanceOptions& options);
 DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& options = {},
                                 const Progress& progress = {});
 
+/// The same on a grid that was made before, with the distance known up to `band_voxels`, >= 3.
+inline constexpr double kLeastBandVoxels = 3.25;
+DistanceField unsigned_distance(const CleanSoup& soup, const GridFrame& frame, double band_voxels,
+                                const Progress& progress = {});
+
 /// All values side by side: (nz, ny, nx), 4 bytes per voxel.
 Grid<float> dense(const BlockGrid& blocks);
 

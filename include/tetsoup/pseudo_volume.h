@@ -124,4 +124,18 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
 /// ask for more in its report.
 double band_needed_voxels(const DistanceField& field, const PseudoVolumeOptions& options);
 
+/// Decides which voxels of a grid lie in the pseudo volume of a soup: all that a mesher needs to know of it.
+///
+/// Where a part of the soup is sound (closed, every edge has an even number of triangles) rays cross it exactly, however
+/// close two walls are, and all agree. The other parts are decided by classify_volume() with the distance to them, but
+/// that away from their rims (edges of an odd number of triangles) a run of voxels flips the parity as often as its
+/// triangles are crossed: volume events decide where the soup is open, doubled or loose. With Placement::Entry they
+/// decide everywhere. Windings are looked at in one place: nested oriented shells, see Cavities.
+///
+/// @throws InvalidInput  if an option is out of range or the soup is empty; Cancelled.
+/// Cost: O(triangles + voxels the soup passes through) where all parts are sound; else as unsigned_distance() and
+/// classify_volume().
+PseudoVolume find_volume(const CleanSoup& soup, const GridFrame& frame, const PseudoVolumeOptions& options = {},
+                         const Progress& progress = {});
+
 }  // namespace tetsoup

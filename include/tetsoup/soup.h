@@ -53,10 +53,15 @@ struct SoupPart {
 /// What of a soup can be trusted: where every ray crosses a closed surface, crossings tell inside from outside exactly.
 /// The only place that knows windings; they are evidence for sound parts and leave no trace in others.
 struct SoupParts {
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   std::vector<std::uint32_t> part_of_triangle;
   std::vector<SoupPart> parts;         ///< In the order of their first triangles.
   std::vector<std::uint8_t> turned;    ///< Of every triangle: it ran from its lowest vertex to the highest.
   std::vector<std::array<std::uint32_t, 2>> odd_edges;  ///< Edges of an odd number of triangles: rims of holes.
+  /// Of every part the innermost sound part around it that it does not touch, or kNone; empty until somebody asks
+  /// (split_bodies()).
+  std::vector<std::uint32_t> around;
+  double near = 0;  ///< Parts closer than this hang together.
 
   bool all_sound() const {
     for (const SoupPart& part : parts)

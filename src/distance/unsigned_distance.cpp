@@ -44,10 +44,13 @@ BlockGrid measure(const SoupFeatures& features, const GridFrame& frame, double b
 }  // namespace
 
 DistanceField unsigned_distance(const CleanSoup& soup, const DistanceOptions& options, const Progress& progress) {
-  const GridFrame frame = make_grid(soup, options);
-  StageWatch watch(progress, "distance");
   const double band =
       options.mode == DistanceMode::Full ? std::numeric_limits<double>::infinity() : options.band_voxels;
+  return unsigned_distance(soup, make_grid(soup, options), band, progress);
+}
+
+DistanceField unsigned_distance(const CleanSoup& soup, const GridFrame& frame, double band, const Progress& progress) {
+  StageWatch watch(progress, "distance");
   watch.enter_part(0, 0.1);
   const SoupFeatures features = find_features(soup, frame, watch);
   const TriangleTree tree(features, watch);

@@ -7,6 +7,7 @@
 #include "base/require.h"
 #include "pseudo_volume/band_bits.h"
 #include "pseudo_volume/cavities.h"
+#include "pseudo_volume/classify_volume.h"
 #include "pseudo_volume/largest_closure.h"
 #include "pseudo_volume/rays.h"
 #include "pseudo_volume/score.h"
@@ -38,16 +39,6 @@ struct Trial {
   std::size_t cavity_voxels = 0;
 };
 
-void check_options(const PseudoVolumeOptions& options) {
-  if (int{options.k.has_value()} + int{options.band.has_value()} + int{options.band_voxels.has_value()} > 1)
-    throw InvalidInput("give at most one of k, band_voxels and band");
-  require(!options.k || (*options.k >= 0 && *options.k <= 1), "k", options.k.value_or(0), "0 to 1");
-  const auto is_length = [](const std::optional<double>& v) { return !v || (*v > 0 && std::isfinite(*v)); };
-  require(is_length(options.band), "band", options.band.value_or(0), "positive and finite");
-  require(is_length(options.band_voxels), "band_voxels", options.band_voxels.value_or(0), "positive and finite");
-  require(options.rays == 26 || options.rays == 13, "rays", options.rays, "26 or 13");
-}
-
 bool is_automatic(const PseudoVolumeOptions& o) {
   return !o.k && !o.band && !o.band_voxels;
 }
@@ -73,8 +64,9 @@ bool is_useful(const DistanceField& field, double band_voxels) {
 /// Votes with one band after the other; what does not depend on the band is found once.
 class Trials {
  public:
-  Trials(const DistanceField& field, const PseudoVolumeOptions& options, const SoupMarks& marks, StageWatch& watch)
-      : distance_(field.distance), options_(options), marks_(marks), watch_(watch) {}
+  Trials(const DistanceField& field, const PseudoVolumeOptions& options, const Evidence& evidence,
+         const SoupMarks& marks, StageWatch& watch)
+      : distance_(field.distance), options_(options), evidence_(evidence), marks_(marks), watch_(watch) {}
 
   /// Overwrites `trial`, and takes its memory. The watch's part is covered from `begin` to `end`.
   void run(double band_voxels, Trial& trial, double begin, double end) {
@@ -84,10 +76,14 @@ class Trials {
     const BandBits band = find_band(distance_, length(band_voxels), watch_);
     clear(trial.votes);
     if (trial.inside.words.empty()) trial.inside = make_bit_grid(distance_.frame);
-    cast_rays(band, *events_, options_.rays, trial.votes, watch_, begin, end);
+    std::optional<ExactCrossings> exact;
+    if (evidence_.planes != nullptr)
+      exact = exact_for_band(*evidence_.planes, evidence_.rims->distance, distance_, band_voxels, watch_);
+    cast_rays(band, *events_, exact ? &*exact : nullptr, options_.rays, trial.votes, watch_, begin, end);
     trial.statistics = count_votes(trial.votes, options_.rays, trial.inside, watch_);
     trial.surface_share = surface_share(trial.inside, marks_.touched, watch_);
     trial.cavity_voxels = 0;
+    if (evidence_.solids != nullptr) add_bits(trial.inside, *evidence_.solids);
     if (options_.cavities == Cavities::Keep) return;
     trial.cavity_voxels = fill_cavities(trial.inside, marks_.sealed, watch_);
     if (band_voxels > kFloorVoxels)
@@ -126,6 +122,7 @@ class Trials {
 
   const BlockGrid& distance_;
   const PseudoVolumeOptions& options_;
+  const Evidence& evidence_;
   const SoupMarks& marks_;
   StageWatch& watch_;
   std::optional<EventStore> events_;
@@ -159,6 +156,18 @@ void choose_band(const DistanceField& field, Trials& trials, StageWatch& watch, 
   }
 }
 
+}  // namespace
+
+void check_options(const PseudoVolumeOptions& options) {
+  if (int{options.k.has_value()} + int{options.band.has_value()} + int{options.band_voxels.has_value()} > 1)
+    throw InvalidInput("give at most one of k, band_voxels and band");
+  require(!options.k || (*options.k >= 0 && *options.k <= 1), "k", options.k.value_or(0), "0 to 1");
+  const auto is_length = [](const std::optional<double>& v) { return !v || (*v > 0 && std::isfinite(*v)); };
+  require(is_length(options.band), "band", options.band.value_or(0), "positive and finite");
+  require(is_length(options.band_voxels), "band_voxels", options.band_voxels.value_or(0), "positive and finite");
+  require(options.rays == 26 || options.rays == 13, "rays", options.rays, "26 or 13");
+}
+
 std::size_t count_voxels(const BitGrid& bits) {
   std::size_t count = 0;
   for (const std::uint64_t word : bits.words)
@@ -166,7 +175,9 @@ std::size_t count_voxels(const BitGrid& bits) {
   return count;
 }
 
-}  // namespace
+void add_bits(BitGrid& to, const BitGrid& from) {
+  for (std::size_t i = 0; i < to.words.size(); ++i) to.words[i] |= from.words[i];
+}
 
 double band_needed_voxels(const DistanceField& field, const PseudoVolumeOptions& options) {
   check_options(options);
@@ -175,11 +186,16 @@ double band_needed_voxels(const DistanceField& field, const PseudoVolumeOptions&
 }
 
 PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptions& options, const Progress& progress) {
+  return classify_volume(field, options, Evidence{}, progress);
+}
+
+PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptions& options, const Evidence& evidence,
+                             const Progress& progress) {
   check_options(options);
   const GridFrame& frame = field.distance.frame;
   StageWatch watch(progress, "pseudo_volume");
   const SoupMarks marks = mark_soup(field.distance, watch);
-  Trials trials(field, options, marks, watch);
+  Trials trials(field, options, evidence, marks, watch);
 
   PseudoVolume result;
   result.rays = options.rays;

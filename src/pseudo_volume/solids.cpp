@@ -1,6 +1,8 @@
 #include "pseudo_volume/solids.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "base/bits.h"
 #include "base/groups.h"
@@ -145,6 +147,39 @@ BitGrid fill_solids(const CleanSoup& soup, const Nests& nests, const GridFrame& 
       filler.fill(static_cast<std::size_t>(s), triangles[static_cast<std::size_t>(s)]);
   });
   return inside;
+}
+
+void close_hairlines(BitGrid& inside, int most) {
+  const BitGrid before = inside;
+  const std::array<int, 3>& size = inside.frame.size;
+  const std::size_t words = inside.words_per_row, layer = words * static_cast<std::size_t>(size[1]);
+  for (int gap = 1; gap <= most; ++gap) {
+    for (int z = 0; z < size[2]; ++z) {
+      for (int y = 0; y < size[1]; ++y) {
+        for (int x = 0; x < size[0]; ++x) {
+          if (x + gap + 1 < size[0] && before.test(x, y, z) && !before.test(x + 1, y, z) &&
+              before.test(x + gap + 1, y, z))
+            set_bits(inside.words.data() + inside.row(y, z), x + 1, x + gap + 1);
+        }
+      }
+    }
+    const auto along = [&](int count, std::size_t stride, int other_count, std::size_t other_stride) {
+      for (int j = 0; j < other_count; ++j) {
+        for (int i = 0; i + gap + 1 < count; ++i) {
+          const std::size_t from = static_cast<std::size_t>(i) * stride + static_cast<std::size_t>(j) * other_stride;
+          for (std::size_t w = 0; w < words; ++w) {
+            const std::uint64_t between = before.words[from + w] & ~before.words[from + stride + w] &
+                                          before.words[from + static_cast<std::size_t>(gap + 1) * stride + w];
+            if (between == 0) continue;
+            for (int step = 1; step <= gap; ++step)
+              inside.words[from + static_cast<std::size_t>(step) * stride + w] |= between;
+          }
+        }
+      }
+    };
+    along(size[1], words, size[2], layer);
+    along(size[2], layer, size[1], words);
+  }
 }
 
 }  // namespace tetsoup

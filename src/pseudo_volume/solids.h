@@ -26,4 +26,7 @@ Nests make_nests(const SoupParts& parts, std::span<const std::uint32_t> around, 
 /// Voxels whose centres lie inside.
 BitGrid fill_solids(const CleanSoup& soup, const Nests& nests, const GridFrame& frame, StageWatch& watch);
 
+/// Fills what lies between two inside voxels of a row along x, y or z with at most `most` voxels between them.
+void close_hairlines(BitGrid& inside, int most);
+
 }  // namespace tetsoup

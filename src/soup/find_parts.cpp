@@ -129,36 +129,4 @@ SoupParts find_parts(const TriangleSoup& soup, std::span<const WindingOf> windin
   return result;
 }
 
-CleanSoup subset_of(const CleanSoup& soup, std::span<const std::uint32_t> chosen) {
-  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-  CleanSoup out;
-  out.report.kind = soup.report.kind;
-  std::vector<std::uint32_t> vertex(soup.soup.vertices.size(), kNone), part(soup.parts.parts.size(), kNone);
-  for (const std::uint32_t t : chosen)
-    for (const std::uint32_t v : soup.soup.triangles[t]) vertex[v] = 0;
-  for (std::size_t v = 0; v < vertex.size(); ++v) {
-    if (vertex[v] == kNone) continue;
-    vertex[v] = static_cast<std::uint32_t>(out.soup.vertices.size());
-    out.soup.vertices.push_back(soup.soup.vertices[v]);
-  }
-  for (const std::uint32_t t : chosen) {
-    const auto [a, b, c] = soup.soup.triangles[t];
-    out.soup.triangles.push_back({vertex[a], vertex[b], vertex[c]});
-    std::uint32_t& name = part[soup.parts.part_of_triangle[t]];
-    if (name == kNone) {
-      name = static_cast<std::uint32_t>(out.parts.parts.size());
-      out.parts.parts.push_back(soup.parts.parts[soup.parts.part_of_triangle[t]]);
-    }
-    out.parts.part_of_triangle.push_back(name);
-    out.parts.turned.push_back(soup.parts.turned[t]);
-  }
-  for (const auto& [a, b] : soup.parts.odd_edges)
-    if (vertex[a] != kNone && vertex[b] != kNone) out.parts.odd_edges.push_back({vertex[a], vertex[b]});
-  out.report.vertex_count = out.report.merged_vertices = out.soup.vertices.size();
-  out.report.triangle_count = out.report.used_triangles = out.soup.triangles.size();
-  out.report.components = out.parts.parts.size();
-  out.report.box = box_of(out.soup.vertices);
-  return out;
-}
-
 }  // namespace tetsoup

@@ -19,8 +19,4 @@ enum class WindingOf : std::uint8_t {
 /// @param soup  Vertices merged, indices of each triangle ascending, no triangle twice.
 SoupParts find_parts(const TriangleSoup& soup, std::span<const WindingOf> windings, StageWatch& watch);
 
-/// The soup of some triangles of a clean one, `chosen` ascending: clean as well. The report has class, box and counts
-/// of edges of nothing but the counts of triangles and vertices; the parts are those of the triangles, renumbered.
-CleanSoup subset_of(const CleanSoup& soup, std::span<const std::uint32_t> chosen);
-
 }  // namespace tetsoup

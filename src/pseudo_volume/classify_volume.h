@@ -1,0 +1,24 @@
+// Votes of rays with what else is known of the soup.
+#pragma once
+
+#include "pseudo_volume/exact_crossings.h"
+#include "tetsoup/pseudo_volume.h"
+
+namespace tetsoup {
+
+/// What a soup tells beyond its distance.
+struct Evidence {
+  const CrossingPlanes* planes = nullptr;  ///< Crossings of what the field is the distance of,
+  const DistanceField* rims = nullptr;     ///< and the distance to its rims, known as far as the field; or neither.
+  const BitGrid* solids = nullptr;         ///< Inside in any case.
+};
+
+PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptions& options, const Evidence& evidence,
+                             const Progress& progress);
+
+/// @throws InvalidInput  if an option is out of range.
+void check_options(const PseudoVolumeOptions& options);
+std::size_t count_voxels(const BitGrid& bits);
+void add_bits(BitGrid& to, const BitGrid& from);
+
+}  // namespace tetsoup

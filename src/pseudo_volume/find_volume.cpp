@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/bits.h"
+#include "base/vec.h"
+#include "pseudo_volume/cavities.h"
+#include "pseudo_volume/classify_volume.h"
+#include "pseudo_volume/solids.h"
+#include "pseudo_volume/votes.h"
+#include "tetsoup/bodies.h"
+#include "tetsoup/pseudo_volume.h"
+
+namespace tetsoup {
+namespace {
+
+/// Of the triangles; soups with more rims than this are loose, and no crossing of theirs says anything.
+constexpr double kMostRims = 0.25;
+
+struct Split {
+  std::vector<std::uint32_t> sound, unsound;  ///< Triangles.
+};
+
+Split split_by_soundness(const CleanSoup& soup) {
+  Split split;
+  for (std::uint32_t t = 0; t < soup.soup.triangles.size(); ++t)
+    (soup.parts.parts[soup.parts.part_of_triangle[t]].sound ? split.sound : split.unsound).push_back(t);
+  return split;
+}
+
+/// The inside of the sound parts, and of that what is hollow by evidence.
+struct Solids {
+  BitGrid inside, hollow;
+  Nests nests;
+  bool all_oriented = true;
+};
+
+Solids find_solids(const CleanSoup& soup, const GridFrame& frame, Cavities cavities, StageWatch& watch) {
+  Solids solids;
+  std::size_t sound = 0;
+  for (const SoupPart& part : soup.parts.parts) {
+    sound += part.sound;
+    solids.all_oriented = solids.all_oriented && (part.oriented || !part.sound);
+  }
+  if (sound == 0) return solids;
+  std::vector<std::uint32_t> around = soup.parts.around;
+  around.resize(soup.parts.parts.size(), SoupParts::kNone);
+  solids.nests = make_nests(soup.parts, around, cavities);
+  solids.inside = fill_solids(soup, solids.nests, frame, watch);
+  if (soup.parts.near > 0) close_hairlines(solids.inside, static_cast<int>(soup.parts.near / frame.voxel_size + 0.5));
+  if (solids.nests.cavities.empty()) return solids;
+  solids.hollow = fill_solids(soup, make_nests(soup.parts, around, Cavities::Fill), frame, watch);
+  for (std::size_t i = 0; i < solids.hollow.words.size(); ++i) solids.hollow.words[i] &= ~solids.inside.words[i];
+  return solids;
+}
+
+/// The rims as a soup of segments.
+CleanSoup rims_of(const CleanSoup& soup) {
+  CleanSoup rims;
+  rims.soup.vertices = soup.soup.vertices;
+  for (const auto& [a, b] : soup.parts.odd_edges) rims.soup.triangles.push_back({a, a, b});
+  rims.report = soup.report;
+  rims.report.used_triangles = rims.soup.triangles.size();
+  return rims;
+}
+
+/// What the rays say of parts that are not sound.
+PseudoVolume vote(const CleanSoup& soup, const GridFrame& frame, const PseudoVolumeOptions& options,
+                  const BitGrid* solids, const Progress& progress) {
+  const bool loose = static_cast<double>(soup.parts.odd_edges.size()) >
+                     kMostRims * static_cast<double>(soup.soup.triangles.size());
+  DistanceField field = unsigned_distance(soup, frame, kLeastBandVoxels, progress), rim_field;
+  CleanSoup rims;
+  CrossingPlanes planes;
+  Evidence evidence;
+  evidence.solids = solids;
+  if (!loose && options.placement == Placement::Closest && !soup.parts.odd_edges.empty()) {
+    StageWatch watch(progress, "pseudo_volume");
+    rims = rims_of(soup);
+    rim_field = unsigned_distance(rims, frame, kLeastBandVoxels, progress);
+    planes = find_crossings(soup.soup, frame, watch);
+    evidence.planes = &planes;
+    evidence.rims = &rim_field;
+  }
+  std::optional<double> band = band_needed_voxels(field, options);
+  PseudoVolume volume;
+  while (band) {
+    widen_distance(field, soup, *band, progress);
+    if (evidence.rims != nullptr) widen_distance(rim_field, rims, *band, progress);
+    volume = classify_volume(field, options, evidence, progress);
+    band = volume.report.wants_band_voxels;
+  }
+  return volume;
+}
+
+/// All rays agree.
+VoteGrid votes_for(const BitGrid& inside, int rays) {
+  VoteGrid votes;
+  votes.frame = inside.frame;
+  votes.words_per_row = inside.words_per_row;
+  votes.words.resize(inside.words.size());
+  for (std::size_t i = 0; i < inside.words.size(); ++i)
+    for (std::size_t slice = 0; slice < votes.words[i].slices.size(); ++slice)
+      votes.words[i].slices[slice] |= (rays >> slice & 1) != 0 ? inside.words[i] : 0;
+  return votes;
+}
+
+/// Share of the surface that has an inside voxel beside it, by the middles of some thousand triangles.
+double covered_share(const TriangleSoup& soup, const BitGrid& inside) {
+  constexpr std::size_t kSamples = 4096;
+  const GridFrame& frame = inside.frame;
+  const BitRows rows(inside);
+  const std::size_t step = soup.triangles.size() / kSamples + 1;
+  double all = 0, covered = 0;
+  for (std::size_t i = 0; i < soup.triangles.size(); i += step) {
+    const auto [a, b, c] = soup.triangles[i];
+    const Vec3d pa = to_double(soup.vertices[a]), pb = to_double(soup.vertices[b]), pc = to_double(soup.vertices[c]);
+    const double area = length(cross(pb - pa, pc - pa));
+    const Vec3d at = ((pa + pb + pc) * (1.0 / 3) - frame.origin) * (1 / frame.voxel_size);
+    const int x = static_cast<int>(std::lround(at.x));
+    const std::uint64_t near = rows.grown(static_cast<int>(std::lround(at.y)), static_cast<int>(std::lround(at.z)),
+                                          static_cast<std::size_t>(x / 64));
+    all += area;
+    covered += (near >> (x % 64) & 1U) != 0 ? area : 0;
+  }
+  return all > 0 ? covered / all : 1;
+}
+
+/// A volume of sound parts alone: nothing was voted on.
+PseudoVolume agreed(const CleanSoup& soup, Solids solids, const PseudoVolumeOptions& options, StageWatch& watch) {
+  constexpr double kFloorVoxels = 0.9;
+  PseudoVolume volume;
+  volume.rays = options.rays;
+  PseudoVolumeReport& report = volume.report;
+  volume.inside = std::move(solids.inside);
+  const bool fill = options.cavities == Cavities::Fill || (options.cavities == Cavities::Auto && !solids.all_oriented);
+  if (fill) report.cavity_voxels = fill_cavities(volume.inside, make_bit_grid(volume.inside.frame), watch);
+  for (std::size_t i = 0; i < solids.hollow.words.size(); ++i) volume.inside.words[i] &= ~solids.hollow.words[i];
+  volume.votes = votes_for(volume.inside, options.rays);
+  report.k = 1;
+  report.band_voxels = kFloorVoxels;
+  report.band = kFloorVoxels * volume.inside.frame.voxel_size;
+  report.automatic = !options.k && !options.band && !options.band_voxels;
+  report.consensus = 1;
+  report.soup_covered = covered_share(soup.soup, volume.inside);
+  return volume;
+}
+
+}  // namespace
+
+PseudoVolume find_volume(const CleanSoup& soup, const GridFrame& frame, const PseudoVolumeOptions& options,
+                         const Progress& progress) {
+  check_options(options);
+  if (soup.report.used_triangles == 0) throw InvalidInput("the soup has no finite triangle");
+  StageWatch watch(progress, "pseudo_volume");
+  Split split = split_by_soundness(soup);
+  if (options.placement == Placement::Entry) {
+    split.unsound.insert(split.unsound.end(), split.sound.begin(), split.sound.end());
+    split.sound.clear();
+  }
+  Solids solids;
+  if (!split.sound.empty()) solids = find_solids(soup, frame, options.cavities, watch);
+  const std::vector<SoupCavity> cavities = std::move(solids.nests.cavities);
+  PseudoVolume volume;
+  if (split.unsound.empty()) {
+    volume = agreed(soup, std::move(solids), options, watch);
+  } else if (split.sound.empty()) {
+    volume = vote(soup, frame, options, nullptr, progress);
+  } else {
+    volume = vote(subset_of(soup, split.unsound), frame, options, &solids.inside, progress);
+    for (std::size_t i = 0; i < solids.hollow.words.size(); ++i)
+      volume.inside.words[i] &= ~(solids.hollow.words[i] & ~votes_above(volume.votes.words[i], static_cast<unsigned>(options.rays) / 2));
+  }
+  PseudoVolumeReport& report = volume.report;
+  report.cavities = cavities;
+  report.exact_share =
+      static_cast<double>(split.sound.size()) / static_cast<double>(split.sound.size() + split.unsound.size());
+  report.inside_voxels = count_voxels(volume.inside);
+  report.volume = static_cast<double>(report.inside_voxels) * std::pow(frame.voxel_size, 3);
+  return volume;
+}
+
+}  // namespace tetsoup
