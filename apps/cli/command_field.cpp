@@ -47,7 +47,7 @@ void run_field(FieldCommand& command) {
   throw_if_interrupted();
   files.keep();
   if (command.run.quiet) return;
-  const GridFrame& frame = pipeline.distance().distance.frame;
+  const GridFrame& frame = pipeline.grid();
   std::string notes;
   for (const std::string& note : grid_notes(pipeline.soup(), command.options.distance, frame))
     notes += "Note: " + note + "\n";

@@ -87,7 +87,7 @@ void measure(MeshRun& run, bool compare) {
   const TriangleSoup& soup = run.pipeline->soup().soup;
   run.distance = boundary_distance(run.pipeline->smooth().mesh, soup, lattice.report.mean_edge);
   if (compare) run.raw_distance = boundary_distance(lattice.mesh, soup, lattice.report.mean_edge);
-  run.iou = intersection_over_union(run.pipeline->smooth().mesh, run.pipeline->pseudo_volume().inside);
+  run.iou = run.pipeline->overlap(run.pipeline->smooth().mesh);
   run.readiness = assess_readiness(run.pipeline->smooth().mesh, run.quality, run.material);
   run.seconds.quality = watch.seconds();
 }
@@ -123,7 +123,7 @@ void draw_preview(const std::string& path, std::optional<UpAxis> up, MeshRun& ru
   const Pipeline& pipeline = *run.pipeline;
   const SoupReport& soup = pipeline.soup().report;
   const PseudoVolumeReport& volume = pipeline.pseudo_volume().report;
-  const std::array<int, 3> size = unpadded_size(pipeline.distance().distance.frame);
+  const std::array<int, 3> size = unpadded_size(pipeline.grid());
   PreviewScene scene;
   scene.soup = &pipeline.soup().soup;
   scene.volume = &pipeline.pseudo_volume();
@@ -212,6 +212,7 @@ void add_mesh_command(CLI::App& app) {
   add_output_flags(*mesh, command->meshes);
   add_grid_flags(*mesh, command->options.distance);
   add_volume_flags(*mesh, command->options.pseudo_volume);
+  add_join_flag(*mesh, command->options.join);
   add_lattice_flags(*mesh, command->options.lattice);
   add_cover_flags(*mesh, command->options.lattice);
   add_topology_flags(*mesh, command->options.lattice.topology);

@@ -49,6 +49,13 @@ void add_grid_flags(CLI::App& app, DistanceOptions& options) {
   size->group(kGridGroup);
 }
 
+void add_join_flag(CLI::App& app, Join& join) {
+  add_choice<Join>(app, "--join", join, {{"touching", Join::Touching}, {"near", Join::Near}, {"all", Join::All}},
+                   "Which parts are one body: those that touch; those that the voxels\ncannot tell apart; all, glued "
+                   "where they share a cell (touching)")
+      ->group(kVolumeGroup);
+}
+
 void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
   CLI::Option* const k = add_flag(
       app, "--k", "auto|X",
@@ -80,9 +87,9 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
       "Where a ray crosses the band: at its closest approach to the\nsoup, or on entering, which thickens the result "
       "(closest)");
   CLI::Option* const cavities = add_choice<Cavities>(
-      app, "--cavities", options.cavities, {{"fill", Cavities::Fill}, {"keep", Cavities::Keep}},
-      "Space that the soup encloses although rays call it outside, as\nwhere closed parts overlap: inside, or left "
-      "hollow (fill)");
+      app, "--cavities", options.cavities, {{"auto", Cavities::Auto}, {"fill", Cavities::Fill}, {"keep", Cavities::Keep}},
+      "Enclosed space: hollow where closed shells turn their outside\nto it, else filled; filled; hollow where rays "
+      "call it outside (auto)");
   for (CLI::Option* const option : {k, voxels, band, rays, placement, cavities}) option->group(kVolumeGroup);
 }
 

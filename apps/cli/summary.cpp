@@ -164,7 +164,7 @@ std::string describe_volume(const GridFrame& frame, const PseudoVolumeReport& vo
 
 std::string describe_run(const MeshRun& run) {
   const Pipeline& pipeline = *run.pipeline;
-  const GridFrame& frame = pipeline.distance().distance.frame;
+  const GridFrame& frame = pipeline.grid();
   std::string text = describe_soup(run.input, pipeline.soup().report) +
                      describe_volume(frame, pipeline.pseudo_volume().report, pipeline.soup().report) +
                      describe_lattice(pipeline.lattice().report, pipeline.smooth().report) + describe_result(run);

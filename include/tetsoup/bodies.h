@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,26 @@ struct Bodies {
 /// @throws Cancelled  if `progress` says so.
 /// Cost: O(n log n).
 Bodies split_bodies(const CleanSoup& soup, Join join = Join::Touching, const Progress& progress = {});
+
+/// What a body asks of its grid and of the budget.
+struct BodySize {
+  double longest = 0;  ///< Side of its box.
+  double volume = 0;   ///< Enclosed, where windings or closedness tell; else a guess from the box.
+  double area = 0;
+  std::optional<double> wall, gap;  ///< The thinnest wall and the narrowest gap that take a share of the area.
+};
+
+/// Sizes of the bodies of a soup.
+/// Cost: O(n log n), some 10 ms for walls and gaps, which are looked for from some thousand points.
+std::vector<BodySize> measure_bodies(const CleanSoup& soup, const Bodies& bodies, const Progress& progress = {});
+
+/// Tets for every body out of `tets`: by volume and area, with a floor for each; 1 where there are too few for that, and
+/// 0, for the smallest, where there are fewer tets than bodies.
+std::vector<std::size_t> share_tets(std::span<const BodySize> bodies, std::size_t tets);
+
+/// Edge of the voxels for a body of so many tets: at most a 128th of its longest side (of a body among others, an eighth
+/// of a tet's edge), and fine enough for its walls and gaps as far as a grid can be.
+double wanted_voxel_size(const BodySize& body, std::size_t tets, bool alone);
 
 /// The soup of some triangles of a clean one, `chosen` ascending: clean as well. Its report tells counts of triangles,
 /// vertices and parts, box and class; its parts are those of the triangles, renumbered.

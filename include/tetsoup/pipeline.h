@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
+#include "tetsoup/bodies.h"
 #include "tetsoup/distance.h"
 #include "tetsoup/lattice.h"
 #include "tetsoup/progress.h"
@@ -20,6 +22,7 @@ struct MeshOptions {
   PseudoVolumeOptions pseudo_volume;
   LatticeOptions lattice;
   SmoothOptions smooth;
+  Join join = Join::Touching;  ///< Which parts of the soup are one body; bodies are meshed on grids of their own.
   std::optional<std::size_t> memory_limit;  ///< Bytes; a grid that needs more is refused before it is made.
   bool operator==(const MeshOptions&) const = default;
 };
@@ -57,20 +60,57 @@ class Pipeline {
 
   const MeshOptions& options() const { return options_; }  ///< Of the last run.
   const CleanSoup& soup() const { return soup_; }
-  const DistanceField& distance() const { return *distance_; }  ///< After the stage has run, as all below.
-  const PseudoVolume& pseudo_volume() const { return *volume_; }
-  const LatticeMesh& lattice() const { return *lattice_; }
-  const SmoothResult& smooth() const { return *smooth_; }
+  /// After the stage has run, as all below. Of several bodies this is all of them on one grid of the whole soup; each
+  /// was found on a finer one.
+  const PseudoVolume& pseudo_volume() const;
+  const LatticeMesh& lattice() const;  ///< Of all bodies, one after the other.
+  const SmoothResult& smooth() const;
+  std::size_t body_count() const { return bodies_.size(); }
+  /// The grid of the whole soup.
+  const GridFrame& grid() const { return grid_; }
+  /// The distance to all of the soup on that grid. The mesher measures only what it needs, near parts that are open:
+  /// unless a run ended with the stages Distance or PseudoVolume, this is measured when first asked for.
+  const DistanceField& distance() const;
+  /// IoU of a mesh with the pseudo volume, each body's on its own grid.
+  double overlap(const TetMesh& mesh) const;
 
   std::size_t run_count(Stage stage) const;  ///< Times the stage has run.
   double seconds(
       Stage stage) const;  ///< Wall time of the stage in the last run that reached it; widening counts as distance.
 
  private:
+  /// What is meshed by itself: one of several bodies has a soup of its own.
+  struct Body {
+    CleanSoup own_soup;
+    DistanceOptions distance;  ///< The size of its voxels, as chosen.
+    GridFrame grid;
+    std::size_t tets = 0;  ///< Its share of the budget.
+    BodySize size;
+    std::optional<PseudoVolume> volume;
+    std::optional<LatticeMesh> lattice;
+    std::optional<SmoothResult> smooth;
+  };
+  const CleanSoup& soup_of(const Body& body) const { return bodies_.size() == 1 && whole_ ? soup_ : body.own_soup; }
+
+  void forget_changed(const MeshOptions& options);
+  void split(const Progress& progress);
+  void choose_grids(const Progress& progress);
+  void find_volumes(const Progress& progress);
+  void fill_lattices(const Progress& progress);
+  void smooth_all(const Progress& progress);
+  LatticeMesh lattice_of(Body& body, std::size_t tets, const Progress& progress);
+  void measure_distance(const Progress& progress) const;
+
   CleanSoup soup_;
   MeshOptions options_;
-  std::optional<DistanceField> distance_;
-  std::optional<PseudoVolume> volume_;
+  std::optional<Bodies> split_;
+  std::vector<BodySize> sizes_;
+  std::vector<Body> bodies_;
+  bool whole_ = true;  ///< The only body is all of the soup.
+  bool gridded_ = false, volumed_ = false, latticed_ = false, smoothed_ = false;
+  GridFrame grid_;
+  mutable std::optional<DistanceField> distance_;
+  std::optional<PseudoVolume> volume_;  ///< Of several bodies.
   std::optional<LatticeMesh> lattice_;
   std::optional<SmoothResult> smooth_;
   std::array<std::size_t, kStageCount> run_counts_{};

@@ -16,7 +16,7 @@
 namespace tetsoup {
 
 std::string to_json(const SoupReport& soup);
-std::string to_json(const DistanceField& field);  ///< Its grid, and the memory that takes.
+std::string to_json(const GridFrame& frame);  ///< The grid, and the memory that it takes.
 std::string to_json(const PseudoVolumeReport& report);
 std::string to_json(const LatticeReport& report);
 std::string to_json(const SmoothReport& report);

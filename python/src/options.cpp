@@ -61,6 +61,7 @@ const std::vector<Option>& all_options() {
       option<kSmooth, &SmoothOptions::max_dihedral>("smooth", "max_dihedral"),
       option<kSmooth, &SmoothOptions::max_edge_ratio>("smooth", "max_edge_ratio"),
       option<kSmooth, &SmoothOptions::snap>("smooth", "snap"),
+      option<&MeshOptions::join>("run", "join"),
       option<&MeshOptions::memory_limit>("run", "memory_limit"),
   };
   return options;

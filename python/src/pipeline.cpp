@@ -75,7 +75,7 @@ std::vector<std::string> notes(const Session& session) {
     const Quality quality = measure_quality(mesh);
     return notes_of({.pipeline = pipeline,
                      .quality = quality,
-                     .overlap = intersection_over_union(mesh, pipeline.pseudo_volume().inside)});
+                     .overlap = pipeline.overlap(mesh)});
   });
 }
 

@@ -24,8 +24,12 @@ template <>
 inline constexpr std::array kWords<Placement>{Word<Placement>{"closest", Placement::Closest},
                                               Word<Placement>{"entry", Placement::Entry}};
 template <>
-inline constexpr std::array kWords<Cavities>{Word<Cavities>{"fill", Cavities::Fill},
+inline constexpr std::array kWords<Cavities>{Word<Cavities>{"auto", Cavities::Auto},
+                                             Word<Cavities>{"fill", Cavities::Fill},
                                              Word<Cavities>{"keep", Cavities::Keep}};
+template <>
+inline constexpr std::array kWords<Join>{Word<Join>{"touching", Join::Touching}, Word<Join>{"near", Join::Near},
+                                         Word<Join>{"all", Join::All}};
 template <>
 inline constexpr std::array kWords<LatticeKind>{Word<LatticeKind>{"five", LatticeKind::Five},
                                                 Word<LatticeKind>{"bcc", LatticeKind::Bcc}};

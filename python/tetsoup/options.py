@@ -45,7 +45,10 @@ class PseudoVolumeOptions(TypedDict, total=False):
     band: Annotated[float | None, "the same as a length"]
     rays: Annotated[int, "rays that vote on every voxel: 26 or 13"]
     placement: Annotated[Literal["closest", "entry"], "where a ray crosses the band; 'entry' thickens the result"]
-    cavities: Annotated[Literal["fill", "keep"], "space that the soup encloses although rays call it outside"]
+    cavities: Annotated[
+        Literal["auto", "fill", "keep"],
+        "enclosed space: hollow where closed shells turn their outside to it; solid; hollow where rays say so",
+    ]
 
 
 class LatticeOptions(TypedDict, total=False):
@@ -88,6 +91,7 @@ class SmoothOptions(TypedDict, total=False):
 class RunOptions(TypedDict, total=False):
     """What the machine may give."""
 
+    join: Annotated[Literal["touching", "near", "all"], "which parts of the soup are one body"]
     memory_limit: Annotated[int | None, "bytes that the voxel grid may take; None: no limit (what is free now)"]
 
 

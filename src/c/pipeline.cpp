@@ -57,7 +57,7 @@ void fill_layer(const GridFrame& frame, int axis, int layer, std::vector<float>&
 }
 
 void fill_slice(tetsoup_pipeline& p, tetsoup_field field, int axis, int layer, std::size_t& width) {
-  const GridFrame& frame = p.pipeline.distance().distance.frame;
+  const GridFrame& frame = p.pipeline.grid();
   require(axis >= 0 && axis < 3, "axis", axis, "0, 1 or 2");
   const int layers = frame.size[static_cast<std::size_t>(axis)];
   require(layer >= 0 && layer < layers, "layer", layer, "at least 0 and below the grid's size along the axis");
@@ -85,7 +85,7 @@ Json part(const Parts&... parts) {
 Json report_of(const tetsoup_pipeline& p, const char* material_json) {
   const Pipeline& pipeline = p.pipeline;
   Json report{{"soup", part(pipeline.soup().report)}};
-  if (p.done >= Stage::Distance) report["grid"] = part(pipeline.distance());
+  if (p.done >= Stage::Distance) report["grid"] = part(pipeline.grid());
   if (p.done >= Stage::PseudoVolume) report["pseudo_volume"] = part(pipeline.pseudo_volume().report);
   if (p.done >= Stage::Lattice) {
     report["lattice"] = part(pipeline.lattice().report);
@@ -100,7 +100,7 @@ Json report_of(const tetsoup_pipeline& p, const char* material_json) {
     report["readiness"] = part(assess_readiness(mesh, quality, material), material);
     report["notes"] = notes_of({.pipeline = pipeline,
                                 .quality = quality,
-                                .overlap = intersection_over_union(mesh, pipeline.pseudo_volume().inside),
+                                .overlap = pipeline.overlap(mesh),
                                 .metres_per_unit = material.metres_per_unit});
   }
   for (std::size_t stage = 0; stage <= static_cast<std::size_t>(p.done); ++stage)
@@ -219,7 +219,7 @@ tetsoup_status tetsoup_pipeline_accuracy(tetsoup_pipeline* pipeline, const char*
     const TetMesh& mesh = p.pipeline.smooth().mesh;
     const double edge = p.pipeline.lattice().report.mean_edge;
     const BoundaryDistance distance = boundary_distance(mesh, p.pipeline.soup().soup, edge);
-    const Json report{{"iou_pseudo_volume", intersection_over_union(mesh, p.pipeline.pseudo_volume().inside)},
+    const Json report{{"iou_pseudo_volume", p.pipeline.overlap(mesh)},
                       {"boundary_distance_edges", {{"mean", distance.mean}, {"percentile95", distance.percentile95}}}};
     out = c::keep_text(report.dump());
   });

@@ -53,7 +53,7 @@ void note_lattice(const Findings& found, Notes& notes) {
     return;
   }
   if (static_cast<double>(lattice.sampled_tets) > kManySampled * static_cast<double>(lattice.tet_count)) {
-    const GridFrame& frame = pipeline.distance().distance.frame;
+    const GridFrame& frame = pipeline.grid();
     notes.push_back("The lattice is finer than the voxel grid: " + counted(lattice.sampled_tets, "tet") +
                     " held no voxel centre and were judged by samples. More voxels (--voxels " +
                     std::to_string(std::min(2 * (longest_of(frame.size) - 2 * frame.pad), kMostVoxels)) +
@@ -108,7 +108,7 @@ std::vector<std::string> grid_notes(const CleanSoup& soup, const DistanceOptions
 std::vector<std::string> notes_of(const Findings& found) {
   const Pipeline& pipeline = found.pipeline;
   Notes notes = pipeline.soup().report.notes;
-  append(notes, grid_notes(pipeline.soup(), pipeline.options().distance, pipeline.distance().distance.frame));
+  append(notes, grid_notes(pipeline.soup(), pipeline.options().distance, pipeline.grid()));
   append(notes, pipeline.pseudo_volume().report.notes);
   note_lattice(found, notes);
   append(notes, pipeline.lattice().report.notes);

@@ -113,13 +113,11 @@ std::string to_json(const Quality& quality) {
                   {"boundary_curvature", quality.boundary_curvature}});
 }
 
-std::string to_json(const DistanceField& field) {
-  const GridFrame& frame = field.distance.frame;
+std::string to_json(const GridFrame& frame) {
   return text_of({{"size", frame.size},
                   {"pad", frame.pad},
                   {"origin", vector_json(frame.origin)},
                   {"voxel_size", frame.voxel_size},
-                  {"d_max", field.d_max},
                   {"memory_bytes", grid_memory(frame)}});
 }
 
@@ -198,7 +196,10 @@ std::string to_json(const MeshOptions& options) {
                   {"band", optional_json(volume.band)},
                   {"rays", volume.rays},
                   {"placement", volume.placement == Placement::Closest ? "closest" : "entry"},
-                  {"cavities", volume.cavities == Cavities::Fill ? "fill" : "keep"},
+                  {"cavities", volume.cavities == Cavities::Auto   ? "auto"
+                               : volume.cavities == Cavities::Fill ? "fill"
+                                                                   : "keep"},
+                  {"join", options.join == Join::Touching ? "touching" : options.join == Join::Near ? "near" : "all"},
                   {"tets", optional_json(lattice.tets)},
                   {"vertices", optional_json(lattice.vertices)},
                   {"edge", optional_json(lattice.edge)},

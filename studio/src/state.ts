@@ -14,7 +14,7 @@ export interface Settings {
   voxels: number;
   /** Null: chosen by the library. */
   k: number | null;
-  cavities: 'fill' | 'keep';
+  cavities: 'auto' | 'fill' | 'keep';
   tets: number;
   lattice: 'five' | 'bcc';
   rho: number;
@@ -31,7 +31,7 @@ export interface Settings {
 
 export const kDefaults: Readonly<Settings> = {
   sample: '', damage: 0, file: '', up: 'z', unit: 'm',
-  voxels: 96, k: null, cavities: 'fill',
+  voxels: 96, k: null, cavities: 'auto',
   tets: 2000, lattice: 'five', rho: 0.5, translate: [0, 0, 0], rotate: [0, 0, 0], fit: 'off',
   passes: 6, strength: 1, snap: 'on',
   stiffness: 4.8, view: 'tets',
@@ -45,7 +45,7 @@ export const kUnits: Record<Settings['unit'], { metres: number; label: string }>
 };
 
 const kChoices: Partial<Record<keyof Settings, readonly string[]>> = {
-  up: ['x', 'y', 'z'], unit: ['m', 'cm', 'mm', 'in'], cavities: ['fill', 'keep'], lattice: ['five', 'bcc'],
+  up: ['x', 'y', 'z'], unit: ['m', 'cm', 'mm', 'in'], cavities: ['auto', 'fill', 'keep'], lattice: ['five', 'bcc'],
   fit: ['off', 'search'], snap: ['on', 'off'], view: ['soup', 'votes', 'lattice', 'tets', 'surface'],
 };
 

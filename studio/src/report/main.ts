@@ -65,7 +65,7 @@ function facts(data: ReportData): HTMLElement {
   // A mesh of cells or edges asked for no number of tets, so none can be missed.
   const tets = Number(options.tets ?? (options.vertices || options.edge || options.cells || options.cell_size ? report.lattice?.tet_count : kDefaults.tets));
   const unit = unitOf(data.metres_per_unit);
-  const scaled = { tets, unit, cavities: options.cavities === 'keep' ? 'keep' as const : 'fill' as const };
+  const scaled = { tets, unit, cavities: options.cavities === 'keep' ? 'keep' as const : options.cavities === 'fill' ? 'fill' as const : 'auto' as const };
   const whole = report.pseudo_volume && report.grid && report.soup ? report as Report : null;
   const quality = report.quality as Report['quality'];
   const smoothing = whole?.lattice && report.readiness ? words.ofSmoothing(report as Report)

@@ -102,7 +102,7 @@ export class Panels {
         change: (on) => this.store.set({ k: on ? null : this.lastK }) }), (s) => s.k === null),
       this.bind(k, (s) => s.k ?? this.lastK),
       this.bind(choice({ id: 'cavities', label: 'Enclosed space', hint: 'Space that the triangles enclose although rays call it outside, as where closed parts overlap.',
-        choices: [['fill', 'Fill'], ['keep', 'Leave hollow']], change: (cavities) => this.store.set({ cavities }) }), (s) => s.cavities));
+        choices: [['auto', 'By evidence'], ['fill', 'Fill'], ['keep', 'Leave hollow']], change: (cavities) => this.store.set({ cavities }) }), (s) => s.cavities));
     this.bindings.push((s) => k.enable(s.k !== null));
   }
 

@@ -67,7 +67,7 @@ export function ofVolume(r: Report, s: Wanted): Sentence[] {
   if (p.largest_closure > 0 && r.soup.boundary_edges)
     said.push(say(`Holes were closed up to ${length(p.largest_closure, s.unit)}.`));
   said.push(say(`${count(p.inside_voxels, 'voxel')} of ${length(r.grid.voxel_size, s.unit)} lie inside.`));
-  if (p.cavity_voxels) said.push(say(`${count(p.cavity_voxels, 'voxel')} of enclosed space ${s.cavities === 'fill' ? 'were filled' : 'stay hollow'}.`));
+  if (p.cavity_voxels) said.push(say(`${count(p.cavity_voxels, 'voxel')} of enclosed space ${s.cavities !== 'keep' ? 'were filled' : 'stay hollow'}.`));
   if (p.soup_covered < 0.9) said.push(say(`Only ${Math.round(100 * p.soup_covered)} % of the triangles touch the inside. Lower k to take in more.`, 'watch'));
   return said;
 }

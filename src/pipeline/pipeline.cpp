@@ -1,0 +1,287 @@
+#include "tetsoup/pipeline.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+#include "base/mesh_voxels.h"
+#include "base/parallel.h"
+#include "base/require.h"
+#include "base/vec.h"
+#include "pipeline/unite.h"
+#include "tetsoup/tetsoup.h"
+
+namespace tetsoup {
+namespace {
+
+constexpr std::size_t kDefaultTets = 2000;  ///< As the lattice's own.
+constexpr std::size_t kFewestTets = 5;      ///< Of a lattice: a cube. Bodies that may have fewer are one tet.
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::size_t index_of(Stage stage) {
+  return static_cast<std::size_t>(stage);
+}
+
+void check_memory(const CleanSoup& soup, const MeshOptions& options, const DistanceOptions& chosen) {
+  if (!options.memory_limit) return;
+  const GridFrame frame = make_grid(soup, chosen);
+  const std::size_t needed = grid_memory(frame), limit = *options.memory_limit;
+  if (needed <= limit) return;
+  const int longest = std::max({frame.size[0], frame.size[1], frame.size[2]}) - 2 * frame.pad;
+  const auto needed_for = [&](int voxels) {
+    DistanceOptions smaller = chosen;
+    smaller.voxel_size.reset();
+    smaller.voxels = voxels;
+    return grid_memory(make_grid(soup, smaller));
+  };
+  int fits = 1;
+  for (int too_many = longest; too_many - fits > 1;) {
+    const int middle = (fits + too_many) / 2;
+    (needed_for(middle) <= limit ? fits : too_many) = middle;
+  }
+  char text[256];
+  std::snprintf(text, sizeof text, "voxels = %d needs %.2f GB of memory, must be at most %d to fit into %.2f GB",
+                longest, static_cast<double>(needed) * 1e-9, fits, static_cast<double>(limit) * 1e-9);
+  throw InvalidInput(text);
+}
+
+}  // namespace
+
+std::size_t grid_memory(const GridFrame& frame) {
+  // Bit-sliced votes of two candidates and a handful of bit grids everywhere; distances and events near the soup, of
+  // which as much is expected as the box has surface. Measured on the models; soups that fill their box need more.
+  constexpr double kBytesPerVoxel = 2.5, kBytesPerSurfaceVoxel = 120;
+  const double x = frame.size[0], y = frame.size[1], z = frame.size[2];
+  const double bytes = kBytesPerVoxel * x * y * z + kBytesPerSurfaceVoxel * 2 * (x * y + y * z + z * x);
+  constexpr auto kMost = std::numeric_limits<std::size_t>::max();  // less than 4096^3 voxels take, with 32 bits
+  return bytes < static_cast<double>(kMost) ? static_cast<std::size_t>(bytes) : kMost;
+}
+
+Pipeline::Pipeline(const TriangleSoup& soup, const Progress& progress) {
+  const Stopwatch stopwatch;
+  soup_ = clean_soup(soup, progress);
+  seconds_[index_of(Stage::Soup)] = stopwatch.seconds();
+  run_counts_[index_of(Stage::Soup)] = 1;
+}
+
+std::size_t Pipeline::run_count(Stage stage) const {
+  return run_counts_[index_of(stage)];
+}
+double Pipeline::seconds(Stage stage) const {
+  return seconds_[index_of(stage)];
+}
+
+const SmoothResult& Pipeline::run(const MeshOptions& options, const Progress& progress) {
+  run_until(Stage::Smooth, options, progress);
+  return smooth();
+}
+
+/// What a changed option invalidates goes first, so that a cancelled run leaves no result that does not match.
+void Pipeline::forget_changed(const MeshOptions& options) {
+  const auto shares_budget = [](const MeshOptions& o) { return o.lattice.tets.value_or(0); };
+  if (options.join != options_.join) split_.reset();
+  if (!split_ || !(options.distance == options_.distance)) {
+    gridded_ = false;
+    distance_.reset();
+  }
+  // Bodies that share a budget have grids that suit their share.
+  if (bodies_.size() > 1 && shares_budget(options) != shares_budget(options_)) gridded_ = false;
+  if (!gridded_ || !(options.pseudo_volume == options_.pseudo_volume)) volumed_ = false;
+  if (!volumed_ || !(options.lattice == options_.lattice)) latticed_ = false;
+  if (!latticed_ || !(options.smooth == options_.smooth)) smoothed_ = false;
+  options_ = options;
+  const auto restart_clock = [&](Stage stage, bool stands) {
+    if (!stands) seconds_[index_of(stage)] = 0;
+  };
+  restart_clock(Stage::Distance, gridded_);
+  restart_clock(Stage::PseudoVolume, volumed_);
+  restart_clock(Stage::Lattice, latticed_);
+  restart_clock(Stage::Smooth, smoothed_);
+}
+
+void Pipeline::run_until(Stage last, const MeshOptions& options, const Progress& progress) {
+  const auto timed = [&](Stage stage, bool& done, const auto& body) {
+    if (done) return;
+    const Stopwatch stopwatch;
+    body();
+    done = true;
+    seconds_[index_of(stage)] += stopwatch.seconds();
+    ++run_counts_[index_of(stage)];
+  };
+  forget_changed(options);
+  if (soup_.report.used_triangles == 0) throw InvalidInput("the soup has no finite triangle");
+  timed(Stage::Distance, gridded_, [&] { choose_grids(progress); });
+  if (last <= Stage::PseudoVolume && !distance_) {
+    const Stopwatch stopwatch;
+    measure_distance(progress);
+    seconds_[index_of(Stage::Distance)] += stopwatch.seconds();
+  }
+  if (last == Stage::Distance) return;
+  timed(Stage::PseudoVolume, volumed_, [&] { find_volumes(progress); });
+  if (last == Stage::PseudoVolume) return;
+  timed(Stage::Lattice, latticed_, [&] { fill_lattices(progress); });
+  if (last == Stage::Lattice) return;
+  timed(Stage::Smooth, smoothed_, [&] { smooth_all(progress); });
+}
+
+void Pipeline::split(const Progress& progress) {
+  // One grid over a space that was given holds one body.
+  split_ = split_bodies(soup_, options_.distance.box ? Join::Near : options_.join, progress);
+  soup_.parts.around = split_->around;
+  sizes_ = measure_bodies(soup_, *split_, progress);
+}
+
+void Pipeline::choose_grids(const Progress& progress) {
+  if (!split_) split(progress);
+  const std::size_t count = split_->triangles.size();
+  whole_ = count == 1 && split_->specks.empty();
+  const bool fixed = options_.distance.voxels || options_.distance.voxel_size;
+  const std::vector<std::size_t> shares = share_tets(sizes_, options_.lattice.tets.value_or(kDefaultTets));
+  bodies_ = std::vector<Body>(count);
+  for (std::size_t b = 0; b < count; ++b) {
+    Body& body = bodies_[b];
+    body.size = sizes_[b];
+    body.tets = shares[b];
+    if (!whole_) body.own_soup = subset_of(soup_, split_->triangles[b]);
+    (whole_ ? soup_ : body.own_soup).parts.near = split_->near[b];
+    body.distance = options_.distance;
+    if (!fixed && body.size.longest > 0)
+      body.distance.voxel_size = wanted_voxel_size(body.size, body.tets, count == 1);
+    if (options_.distance.voxels && count > 1) {
+      body.distance.voxels.reset();
+      body.distance.voxel_size = make_grid(soup_, options_.distance).voxel_size;
+    }
+    check_memory(soup_of(body), options_, body.distance);
+    body.grid = make_grid(soup_of(body), body.distance);
+  }
+  grid_ = count == 1 ? bodies_[0].grid : make_grid(soup_, options_.distance);
+}
+
+void Pipeline::find_volumes(const Progress& progress) {
+  volume_.reset();
+  for (Body& body : bodies_) body.volume = find_volume(soup_of(body), body.grid, options_.pseudo_volume, progress);
+  if (bodies_.size() == 1) return;
+  std::vector<const PseudoVolume*> volumes;
+  for (const Body& body : bodies_) volumes.push_back(&*body.volume);
+  volume_ = united_volume(volumes, grid_);
+}
+
+/// The lattice of one body; one that may have a single tet gets a regular one of its own volume.
+LatticeMesh Pipeline::lattice_of(Body& body, std::size_t tets, const Progress& progress) {
+  LatticeOptions own = options_.lattice;
+  if (options_.join == Join::All) own.separate = Separate::Together;
+  if (bodies_.size() == 1) return fill_lattice(*body.volume, soup_of(body), own, progress);
+  if (own.cells) {
+    const Vec3d sides = soup_.report.box.hi - soup_.report.box.lo;
+    own.cell_size = std::max({sides.x, sides.y, sides.z}) / *own.cells;
+    own.cells.reset();
+  }
+  if (own.edge || own.cell_size) return fill_lattice(*body.volume, soup_of(body), own, progress);
+  if (own.vertices) {
+    own.vertices = std::max<std::size_t>(4, tets);
+  } else if (tets < kFewestTets) {
+    return single_tet(body.own_soup.report.box, body.size.volume);
+  } else {
+    own.tets = tets;
+  }
+  return fill_lattice(*body.volume, soup_of(body), own, progress);
+}
+
+void Pipeline::fill_lattices(const Progress& progress) {
+  const LatticeOptions& asked = options_.lattice;
+  lattice_.reset();
+  if (bodies_.size() == 1) {
+    bodies_[0].lattice = lattice_of(bodies_[0], 0, progress);
+    return;
+  }
+  // From the smallest to the largest, which takes what the others missed.
+  const std::size_t wanted = asked.vertices ? *asked.vertices : asked.tets.value_or(kDefaultTets);
+  const std::vector<std::size_t> shares = share_tets(sizes_, wanted);
+  std::vector<std::size_t> order(bodies_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return shares[a] < shares[b]; });
+  std::ptrdiff_t over = 0;
+  for (const std::size_t b : order) {
+    bodies_[b].lattice.reset();
+    if (shares[b] == 0) continue;
+    const auto share = static_cast<std::ptrdiff_t>(shares[b]);
+    const auto own = b == order.back() ? std::max<std::ptrdiff_t>(1, share - over) : share;
+    bodies_[b].lattice = lattice_of(bodies_[b], static_cast<std::size_t>(own), progress);
+    const TetMesh& mesh = bodies_[b].lattice->mesh;
+    over += static_cast<std::ptrdiff_t>(asked.vertices ? mesh.vertices.size() : mesh.tets.size()) - own;
+  }
+  std::vector<const LatticeMesh*> lattices;
+  for (const Body& body : bodies_)
+    if (body.lattice) lattices.push_back(&*body.lattice);
+  lattice_ = united_lattice(lattices);
+}
+
+void Pipeline::smooth_all(const Progress& progress) {
+  smooth_.reset();
+  std::vector<const SmoothResult*> results;
+  for (Body& body : bodies_) {
+    body.smooth.reset();
+    if (!body.lattice) continue;
+    SmoothTarget target;
+    target.inside = &body.volume->inside;
+    if (options_.lattice.cover == Cover::Enclose) target.enclosed = soup_of(body).soup.vertices;
+    if (options_.lattice.cover == Cover::Inside) target.stay = Stay::WithinVolume;
+    body.smooth = smooth_tets(body.lattice->mesh, target, options_.smooth, progress);
+    results.push_back(&*body.smooth);
+  }
+  if (bodies_.size() > 1) smooth_ = united_smooth(results);
+}
+
+void Pipeline::measure_distance(const Progress& progress) const {
+  const DistanceOptions& asked = options_.distance;
+  const double band =
+      asked.mode == DistanceMode::Full ? std::numeric_limits<double>::infinity() : asked.band_voxels;
+  distance_ = unsigned_distance(soup_, grid_, band, progress);
+}
+
+const DistanceField& Pipeline::distance() const {
+  if (!distance_) measure_distance({});
+  return *distance_;
+}
+const PseudoVolume& Pipeline::pseudo_volume() const {
+  return bodies_.size() == 1 ? *bodies_[0].volume : *volume_;
+}
+const LatticeMesh& Pipeline::lattice() const {
+  return bodies_.size() == 1 ? *bodies_[0].lattice : *lattice_;
+}
+const SmoothResult& Pipeline::smooth() const {
+  return bodies_.size() == 1 ? *bodies_[0].smooth : *smooth_;
+}
+
+double Pipeline::overlap(const TetMesh& mesh) const {
+  if (bodies_.size() == 1) return intersection_over_union(mesh, bodies_[0].volume->inside);
+  const Progress nobody;
+  StageWatch watch(nobody, "quality");
+  double shared = 0, either = 0;
+  MeshPlace place;
+  for (const Body& body : bodies_) {
+    TetMesh own;
+    if (body.lattice) own = take_mesh(mesh, body.lattice->mesh, place);
+    const MeshVoxels voxels = count_mesh_voxels(own, body.volume->inside, watch);
+    const double voxel = body.grid.voxel_size * body.grid.voxel_size * body.grid.voxel_size;
+    shared += voxel * static_cast<double>(voxels.in_both);
+    either += voxel * static_cast<double>(voxels.in_mesh + body.volume->report.inside_voxels - voxels.in_both);
+  }
+  return either > 0 ? shared / either : 1;
+}
+
+TetMesh mesh_soup(const TriangleSoup& soup, const MeshOptions& options, const Progress& progress) {
+  Pipeline pipeline(soup, progress);
+  return pipeline.run(options, progress).mesh;
+}
+
+}  // namespace tetsoup
