@@ -87,7 +87,8 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
       "Where a ray crosses the band: at its closest approach to the\nsoup, or on entering, which thickens the result "
       "(closest)");
   CLI::Option* const cavities = add_choice<Cavities>(
-      app, "--cavities", options.cavities, {{"auto", Cavities::Auto}, {"fill", Cavities::Fill}, {"keep", Cavities::Keep}},
+      app, "--cavities", options.cavities,
+      {{"auto", Cavities::Auto}, {"fill", Cavities::Fill}, {"keep", Cavities::Keep}},
       "Enclosed space: hollow where closed shells turn their outside\nto it, else filled; filled; hollow where rays "
       "call it outside (auto)");
   for (CLI::Option* const option : {k, voxels, band, rays, placement, cavities}) option->group(kVolumeGroup);

@@ -23,8 +23,8 @@ enum class Join {
 struct Bodies {
   std::vector<std::vector<std::uint32_t>> triangles;  ///< Of every body, ascending; bodies by their first triangles.
   std::vector<double> near;  ///< Of every body: parts of it that do not touch are closer than this; 0 where all touch.
-  std::vector<std::uint32_t> specks;   ///< Triangles that belong to none: far too small to be a body beside the others.
-  std::vector<std::uint32_t> around;   ///< For SoupParts::around.
+  std::vector<std::uint32_t> specks;  ///< Triangles that belong to none: far too small to be a body beside the others.
+  std::vector<std::uint32_t> around;  ///< For SoupParts::around.
 };
 
 /// Splits a soup into bodies.
@@ -49,12 +49,12 @@ struct BodySize {
 /// Cost: O(n log n), some 10 ms for walls and gaps, which are looked for from some thousand points.
 std::vector<BodySize> measure_bodies(const CleanSoup& soup, const Bodies& bodies, const Progress& progress = {});
 
-/// Tets for every body out of `tets`: by volume and area, with a floor for each; 1 where there are too few for that, and
-/// 0, for the smallest, where there are fewer tets than bodies.
+/// Tets for every body out of `tets`: by volume and area, with a floor for each; 1 where there are too few for that,
+/// and 0, for the smallest, where there are fewer tets than bodies.
 std::vector<std::size_t> share_tets(std::span<const BodySize> bodies, std::size_t tets);
 
-/// Edge of the voxels for a body of so many tets: at most a 128th of its longest side (of a body among others, an eighth
-/// of a tet's edge), and fine enough for its walls and gaps as far as a grid can be.
+/// Edge of the voxels for a body of so many tets: at most a 128th of its longest side (of a body among others, an
+/// eighth of a tet's edge), and fine enough for its walls and gaps as far as a grid can be.
 double wanted_voxel_size(const BodySize& body, std::size_t tets, bool alone);
 
 /// The soup of some triangles of a clean one, `chosen` ascending: clean as well. Its report tells counts of triangles,

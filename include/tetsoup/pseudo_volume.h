@@ -61,9 +61,10 @@ struct PseudoVolumeReport {
   std::vector<BandScore> candidates;  ///< What the automatic choice tried.
   /// The automatic choice is not over: wider candidates would need the distance known this far, in voxels.
   std::optional<double> wants_band_voxels;
-  std::size_t cavity_voxels = 0;  ///< Voxels that were added because the soup encloses them.
+  std::size_t cavity_voxels = 0;     ///< Voxels that were added because the soup encloses them.
   std::vector<SoupCavity> cavities;  ///< What was left hollow by evidence.
-  double exact_share = 0;  ///< Of the soup's triangles, those of sound parts: there the sign is that of exact crossings.
+  double exact_share =
+      0;  ///< Of the soup's triangles, those of sound parts: there the sign is that of exact crossings.
   /// Diameter of the largest hole that was closed: twice the largest distance between the soup and the surface of the
   /// inside; 0 where that is nowhere farther than 0.9 voxels. Where it is small beside the model, little was assumed.
   double largest_closure = 0;
@@ -126,11 +127,11 @@ double band_needed_voxels(const DistanceField& field, const PseudoVolumeOptions&
 
 /// Decides which voxels of a grid lie in the pseudo volume of a soup: all that a mesher needs to know of it.
 ///
-/// Where a part of the soup is sound (closed, every edge has an even number of triangles) rays cross it exactly, however
-/// close two walls are, and all agree. The other parts are decided by classify_volume() with the distance to them, but
-/// that away from their rims (edges of an odd number of triangles) a run of voxels flips the parity as often as its
-/// triangles are crossed: volume events decide where the soup is open, doubled or loose. With Placement::Entry they
-/// decide everywhere. Windings are looked at in one place: nested oriented shells, see Cavities.
+/// Where a part of the soup is sound (closed, every edge has an even number of triangles) rays cross it exactly,
+/// however close two walls are, and all agree. The other parts are decided by classify_volume() with the distance to
+/// them, but that away from their rims (edges of an odd number of triangles) a run of voxels flips the parity as often
+/// as its triangles are crossed: volume events decide where the soup is open, doubled or loose. With Placement::Entry
+/// they decide everywhere. Windings are looked at in one place: nested oriented shells, see Cavities.
 ///
 /// @throws InvalidInput  if an option is out of range or the soup is empty; Cancelled.
 /// Cost: O(triangles + voxels the soup passes through) where all parts are sound; else as unsigned_distance() and

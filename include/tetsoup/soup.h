@@ -55,8 +55,8 @@ struct SoupPart {
 struct SoupParts {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   std::vector<std::uint32_t> part_of_triangle;
-  std::vector<SoupPart> parts;         ///< In the order of their first triangles.
-  std::vector<std::uint8_t> turned;    ///< Of every triangle: it ran from its lowest vertex to the highest.
+  std::vector<SoupPart> parts;       ///< In the order of their first triangles.
+  std::vector<std::uint8_t> turned;  ///< Of every triangle: it ran from its lowest vertex to the highest.
   std::vector<std::array<std::uint32_t, 2>> odd_edges;  ///< Edges of an odd number of triangles: rims of holes.
   /// Of every part the innermost sound part around it that it does not touch, or kNone; empty until somebody asks
   /// (split_bodies()).

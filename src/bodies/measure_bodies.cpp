@@ -46,7 +46,8 @@ ThinSpaces of_body(const ThinSpaces& all, const std::vector<std::uint32_t>& body
 /// Bodies with so many rims for each triangle are loose: what faces each other there is chance.
 constexpr double kLooseRims = 0.25;
 
-std::vector<std::size_t> count_rims(const CleanSoup& soup, const std::vector<std::uint32_t>& body_of, std::size_t count) {
+std::vector<std::size_t> count_rims(const CleanSoup& soup, const std::vector<std::uint32_t>& body_of,
+                                    std::size_t count) {
   std::vector<std::uint32_t> body_of_vertex(soup.soup.vertices.size(), 0xFFFFFFFFU);
   for (std::size_t t = 0; t < body_of.size(); ++t)
     for (const std::uint32_t v : soup.soup.triangles[t]) body_of_vertex[v] = body_of[t];
@@ -134,8 +135,7 @@ std::vector<std::size_t> share_tets(std::span<const BodySize> bodies, std::size_
   const double edge = std::max(edge_for(volume, wanted), std::sqrt(area / wanted) / 2);
   std::vector<double> weight(bodies.size());
   double all = 0;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    all += weight[b] = bodies[b].volume + bodies[b].area * edge / 8;
+  for (std::size_t b = 0; b < bodies.size(); ++b) all += weight[b] = bodies[b].volume + bodies[b].area * edge / 8;
   const auto floor_count = static_cast<std::size_t>(std::clamp(wanted / (4 * count), 5.0, 24.0));
   std::vector<std::size_t> order(bodies.size()), shares(bodies.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -27,6 +27,28 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// One stage's progress out of that of many steps, each of which may tell of stages of its own.
+class Steps {
+ public:
+  Steps(const Progress& progress, const char* stage, std::size_t count)
+      : progress_(progress), stage_(stage), count_(static_cast<double>(std::max<std::size_t>(count, 1))) {}
+
+  /// For the next step; holds as long as this.
+  Progress next() {
+    const double begin = done_++;
+    if (!progress_) return {};
+    return [this, begin](std::string_view, double fraction) {
+      told_ = std::max(told_, std::min(1.0, (begin + fraction) / count_));
+      return progress_(stage_, told_);
+    };
+  }
+
+ private:
+  const Progress& progress_;
+  const char* stage_;
+  double count_, done_ = 0, told_ = 0;
+};
+
 std::size_t index_of(Stage stage) {
   return static_cast<std::size_t>(stage);
 }
@@ -135,9 +157,11 @@ void Pipeline::run_until(Stage last, const MeshOptions& options, const Progress&
 
 void Pipeline::split(const Progress& progress) {
   // One grid over a space that was given holds one body.
-  split_ = split_bodies(soup_, options_.distance.box ? Join::Near : options_.join, progress);
-  soup_.parts.around = split_->around;
-  sizes_ = measure_bodies(soup_, *split_, progress);
+  Steps steps(progress, "distance", 2);
+  Bodies found = split_bodies(soup_, options_.distance.box ? Join::Near : options_.join, steps.next());
+  soup_.parts.around = found.around;
+  sizes_ = measure_bodies(soup_, found, steps.next());
+  split_ = std::move(found);
 }
 
 void Pipeline::choose_grids(const Progress& progress) {
@@ -154,8 +178,7 @@ void Pipeline::choose_grids(const Progress& progress) {
     if (!whole_) body.own_soup = subset_of(soup_, split_->triangles[b]);
     (whole_ ? soup_ : body.own_soup).parts.near = split_->near[b];
     body.distance = options_.distance;
-    if (!fixed && body.size.longest > 0)
-      body.distance.voxel_size = wanted_voxel_size(body.size, body.tets, count == 1);
+    if (!fixed && body.size.longest > 0) body.distance.voxel_size = wanted_voxel_size(body.size, body.tets, count == 1);
     if (options_.distance.voxels && count > 1) {
       body.distance.voxels.reset();
       body.distance.voxel_size = make_grid(soup_, options_.distance).voxel_size;
@@ -168,7 +191,11 @@ void Pipeline::choose_grids(const Progress& progress) {
 
 void Pipeline::find_volumes(const Progress& progress) {
   volume_.reset();
-  for (Body& body : bodies_) body.volume = find_volume(soup_of(body), body.grid, options_.pseudo_volume, progress);
+  Steps steps(progress, "pseudo_volume", bodies_.size());
+  for (Body& body : bodies_) {
+    body.volume.reset();
+    body.volume = find_volume(soup_of(body), body.grid, options_.pseudo_volume, steps.next());
+  }
   if (bodies_.size() == 1) return;
   std::vector<const PseudoVolume*> volumes;
   for (const Body& body : bodies_) volumes.push_back(&*body.volume);
@@ -179,6 +206,9 @@ void Pipeline::find_volumes(const Progress& progress) {
 LatticeMesh Pipeline::lattice_of(Body& body, std::size_t tets, const Progress& progress) {
   LatticeOptions own = options_.lattice;
   if (options_.join == Join::All) own.separate = Separate::Together;
+  // What was left hollow stays so.
+  if (options_.pseudo_volume.cavities == Cavities::Keep || !body.volume->report.cavities.empty())
+    own.topology.bubbles = Bubbles::Keep;
   if (bodies_.size() == 1) return fill_lattice(*body.volume, soup_of(body), own, progress);
   if (own.cells) {
     const Vec3d sides = soup_.report.box.hi - soup_.report.box.lo;
@@ -199,8 +229,9 @@ LatticeMesh Pipeline::lattice_of(Body& body, std::size_t tets, const Progress& p
 void Pipeline::fill_lattices(const Progress& progress) {
   const LatticeOptions& asked = options_.lattice;
   lattice_.reset();
+  Steps steps(progress, "lattice", bodies_.size());
   if (bodies_.size() == 1) {
-    bodies_[0].lattice = lattice_of(bodies_[0], 0, progress);
+    bodies_[0].lattice = lattice_of(bodies_[0], 0, steps.next());
     return;
   }
   // From the smallest to the largest, which takes what the others missed.
@@ -215,7 +246,7 @@ void Pipeline::fill_lattices(const Progress& progress) {
     if (shares[b] == 0) continue;
     const auto share = static_cast<std::ptrdiff_t>(shares[b]);
     const auto own = b == order.back() ? std::max<std::ptrdiff_t>(1, share - over) : share;
-    bodies_[b].lattice = lattice_of(bodies_[b], static_cast<std::size_t>(own), progress);
+    bodies_[b].lattice = lattice_of(bodies_[b], static_cast<std::size_t>(own), steps.next());
     const TetMesh& mesh = bodies_[b].lattice->mesh;
     over += static_cast<std::ptrdiff_t>(asked.vertices ? mesh.vertices.size() : mesh.tets.size()) - own;
   }
@@ -227,6 +258,7 @@ void Pipeline::fill_lattices(const Progress& progress) {
 
 void Pipeline::smooth_all(const Progress& progress) {
   smooth_.reset();
+  Steps steps(progress, "smooth", bodies_.size());
   std::vector<const SmoothResult*> results;
   for (Body& body : bodies_) {
     body.smooth.reset();
@@ -235,7 +267,7 @@ void Pipeline::smooth_all(const Progress& progress) {
     target.inside = &body.volume->inside;
     if (options_.lattice.cover == Cover::Enclose) target.enclosed = soup_of(body).soup.vertices;
     if (options_.lattice.cover == Cover::Inside) target.stay = Stay::WithinVolume;
-    body.smooth = smooth_tets(body.lattice->mesh, target, options_.smooth, progress);
+    body.smooth = smooth_tets(body.lattice->mesh, target, options_.smooth, steps.next());
     results.push_back(&*body.smooth);
   }
   if (bodies_.size() > 1) smooth_ = united_smooth(results);
@@ -243,8 +275,7 @@ void Pipeline::smooth_all(const Progress& progress) {
 
 void Pipeline::measure_distance(const Progress& progress) const {
   const DistanceOptions& asked = options_.distance;
-  const double band =
-      asked.mode == DistanceMode::Full ? std::numeric_limits<double>::infinity() : asked.band_voxels;
+  const double band = asked.mode == DistanceMode::Full ? std::numeric_limits<double>::infinity() : asked.band_voxels;
   distance_ = unsigned_distance(soup_, grid_, band, progress);
 }
 

@@ -132,6 +132,7 @@ SmoothResult united_smooth(const std::vector<const SmoothResult*>& bodies) {
   SmoothResult all;
   SmoothReport& sum = all.report;
   sum.min_dihedral = 4;
+  bool any_wanted = false;
   for (const SmoothResult* body : bodies) {
     append(all.mesh, body->mesh);
     const SmoothReport& own = body->report;
@@ -141,12 +142,14 @@ SmoothResult united_smooth(const std::vector<const SmoothResult*>& bodies) {
     sum.shortened_moves += own.shortened_moves;
     sum.volume_before += own.volume_before;
     sum.volume_after += own.volume_after;
-    sum.volume_wanted += own.volume_wanted;
+    sum.volume_wanted += own.volume_wanted > 0 ? own.volume_wanted : own.volume_after;
+    any_wanted = any_wanted || own.volume_wanted > 0;
     sum.min_dihedral = std::min(sum.min_dihedral, own.min_dihedral);
     sum.boundary_volume_ratio.insert(sum.boundary_volume_ratio.end(), own.boundary_volume_ratio.begin(),
                                      own.boundary_volume_ratio.end());
     sum.notes.insert(sum.notes.end(), own.notes.begin(), own.notes.end());
   }
+  if (!any_wanted) sum.volume_wanted = 0;
   return all;
 }
 

@@ -194,7 +194,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   check_options(options);
   const GridFrame& frame = field.distance.frame;
   StageWatch watch(progress, "pseudo_volume");
-  const SoupMarks marks = mark_soup(field.distance, watch);
+  SoupMarks marks = mark_soup(field.distance, watch);
   Trials trials(field, options, evidence, marks, watch);
 
   PseudoVolume result;
@@ -218,6 +218,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   report.cavity_voxels = trial.cavity_voxels;
   report.inside_voxels = count_voxels(trial.inside);
   report.soup_covered = covered_share(trial.inside, marks.touched, watch);
+  if (evidence.solids != nullptr) add_bits(marks.sealed, *evidence.solids);  // their surface was not made up
   if (!report.wants_band_voxels)
     report.largest_closure = largest_closure_voxels(trial.inside, field.distance, marks, watch) * frame.voxel_size;
   report.band = report.band_voxels * frame.voxel_size;

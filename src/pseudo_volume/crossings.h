@@ -1,4 +1,5 @@
-// Where straight lines of voxel centres cross the soup's triangles, exactly: closed surfaces are crossed evenly, to the bit.
+// Where straight lines of voxel centres cross the soup's triangles, exactly: closed surfaces are crossed evenly, to the
+// bit.
 #pragma once
 
 #include <algorithm>
@@ -35,10 +36,10 @@ inline SeenEdge cut_edge(const SeenCorner& from, const SeenCorner& to, int v) {
   return {low.u + share * (high.u - low.u), low.t + share * (high.t - low.t), up};
 }
 
-/// Calls visit(u, v, first, sign) for every line that crosses a triangle: `first` is the first whole t beyond the crossing,
-/// `sign` is 1 where a line that runs towards higher t gets in, and -1 where it gets out, of what the triangle's winding
-/// says is inside. An edge or a corner on a line belongs to just one of the triangles around it: they add up to zero
-/// over every closed surface, since an edge is cut in the same place for all of its triangles.
+/// Calls visit(u, v, first, sign) for every line that crosses a triangle: `first` is the first whole t beyond the
+/// crossing, `sign` is 1 where a line that runs towards higher t gets in, and -1 where it gets out, of what the
+/// triangle's winding says is inside. An edge or a corner on a line belongs to just one of the triangles around it:
+/// they add up to zero over every closed surface, since an edge is cut in the same place for all of its triangles.
 template <class Visit>
 void cross_lines(const std::array<SeenCorner, 3>& corner, int v_begin, int v_end, const Visit& visit) {
   const auto [lowest, highest] = std::minmax({corner[0].v, corner[1].v, corner[2].v});

@@ -33,8 +33,8 @@ class PlaneMarker {
 
   void mark(const TriangleSoup& soup, const Triangle& t) const {
     constexpr int kAnywhere = 1 << 29;
-    cross_lines({seen(soup.vertices[t[0]]), seen(soup.vertices[t[1]]), seen(soup.vertices[t[2]])}, -kAnywhere, kAnywhere,
-                [&](int u, int v, int first, int) { flip(u, v, first - 1); });
+    cross_lines({seen(soup.vertices[t[0]]), seen(soup.vertices[t[1]]), seen(soup.vertices[t[2]])}, -kAnywhere,
+                kAnywhere, [&](int u, int v, int first, int) { flip(u, v, first - 1); });
   }
 
  private:
@@ -51,7 +51,8 @@ class PlaneMarker {
     } else if (axis_.dy != 0) {
       x = u + axis_.dx * t, y = t, z = v;
     }
-    if (frame_.contains(x, y, z)) bits_.words[bits_.row(y, z) + static_cast<std::size_t>(x / 64)] ^= std::uint64_t{1} << (x % 64);
+    if (frame_.contains(x, y, z))
+      bits_.words[bits_.row(y, z) + static_cast<std::size_t>(x / 64)] ^= std::uint64_t{1} << (x % 64);
   }
 
   Axis axis_;

@@ -10,8 +10,8 @@
 
 namespace tetsoup {
 
-/// For all 13 axes, in the order of the sheets (kernel::kSheetSteps, with dx = -1, 0, 1 each), that along x last: whether
-/// the step from a voxel to the next one on the axis crosses the soup an odd number of times.
+/// For all 13 axes, in the order of the sheets (kernel::kSheetSteps, with dx = -1, 0, 1 each), that along x last:
+/// whether the step from a voxel to the next one on the axis crosses the soup an odd number of times.
 using CrossingPlanes = std::array<BitGrid, 13>;
 CrossingPlanes find_crossings(const TriangleSoup& soup, const GridFrame& frame, StageWatch& watch);
 

@@ -67,8 +67,8 @@ CleanSoup rims_of(const CleanSoup& soup) {
 /// What the rays say of parts that are not sound.
 PseudoVolume vote(const CleanSoup& soup, const GridFrame& frame, const PseudoVolumeOptions& options,
                   const BitGrid* solids, const Progress& progress) {
-  const bool loose = static_cast<double>(soup.parts.odd_edges.size()) >
-                     kMostRims * static_cast<double>(soup.soup.triangles.size());
+  const bool loose =
+      static_cast<double>(soup.parts.odd_edges.size()) > kMostRims * static_cast<double>(soup.soup.triangles.size());
   DistanceField field = unsigned_distance(soup, frame, kLeastBandVoxels, progress), rim_field;
   CleanSoup rims;
   CrossingPlanes planes;
@@ -169,7 +169,8 @@ PseudoVolume find_volume(const CleanSoup& soup, const GridFrame& frame, const Ps
   } else {
     volume = vote(subset_of(soup, split.unsound), frame, options, &solids.inside, progress);
     for (std::size_t i = 0; i < solids.hollow.words.size(); ++i)
-      volume.inside.words[i] &= ~(solids.hollow.words[i] & ~votes_above(volume.votes.words[i], static_cast<unsigned>(options.rays) / 2));
+      volume.inside.words[i] &=
+          ~(solids.hollow.words[i] & ~votes_above(volume.votes.words[i], static_cast<unsigned>(options.rays) / 2));
   }
   PseudoVolumeReport& report = volume.report;
   report.cavities = cavities;

@@ -46,8 +46,8 @@ struct Rays {
 
 enum class Way { Forward, Back };
 
-/// Rays enter a word of voxels where the soup's own crossings count, but for the unsound voxels near its rims: there a run
-/// has its one event, unless it was crossed already.
+/// Rays enter a word of voxels where the soup's own crossings count, but for the unsound voxels near its rims: there a
+/// run has its one event, unless it was crossed already.
 /// @param crossed  Exact crossings between these voxels and those one step ahead on the axis, if not both are unsound.
 template <Way way>
 std::uint64_t enter_exact(Rays& rays, std::uint64_t band, std::uint64_t unsound, std::uint64_t ahead,
@@ -283,10 +283,10 @@ class RayCaster {
     for (std::size_t w = reach.end; both_ways_ && w-- > 0;) meet.template operator()<Way::Back>(back, w);
   }
 
-  const BitGrid& band_;                    ///< Where anything may happen to a ray,
-  const std::vector<WordRange>& ranges_;   ///< and in which words of a row.
-  const BitGrid& events_band_;             ///< Where volume events may be.
-  const ExactCrossings* exact_;            ///< Null: volume events alone.
+  const BitGrid& band_;                   ///< Where anything may happen to a ray,
+  const std::vector<WordRange>& ranges_;  ///< and in which words of a row.
+  const BitGrid& events_band_;            ///< Where volume events may be.
+  const ExactCrossings* exact_;           ///< Null: volume events alone.
   const EventStore& events_;
   VoteGrid& votes_;
   std::size_t words_;

@@ -17,9 +17,9 @@ constexpr int kLayersAtOnce = 8;
 
 /// A row of voxels gets into a nest, or out of it.
 struct Crossing {
-  std::uint32_t row;    ///< Of those of some layers.
+  std::uint32_t row;  ///< Of those of some layers.
   std::uint32_t nest;
-  std::int32_t first;   ///< First voxel beyond it.
+  std::int32_t first;  ///< First voxel beyond it.
   std::int32_t sign;
   bool operator<(const Crossing& o) const {
     if (row != o.row) return row < o.row;
@@ -65,7 +65,8 @@ class SolidFiller {
     for (const std::uint32_t t : triangles) cross(t, begin, end, crossings);
     std::sort(crossings.begin(), crossings.end());
     for (std::size_t i = 0, j = 0; i < crossings.size(); i = j) {
-      while (j < crossings.size() && crossings[j].row == crossings[i].row && crossings[j].nest == crossings[i].nest) ++j;
+      while (j < crossings.size() && crossings[j].row == crossings[i].row && crossings[j].nest == crossings[i].nest)
+        ++j;
       fill_row(std::span(crossings).subspan(i, j - i), begin);
     }
   }
@@ -95,8 +96,7 @@ class SolidFiller {
   /// One row through one nest.
   void fill_row(std::span<const Crossing> crossings, int first_layer) const {
     const auto row = static_cast<int>(crossings.front().row);
-    std::uint64_t* words =
-        inside_.words.data() + inside_.row(row % frame_.size[1], first_layer + row / frame_.size[1]);
+    std::uint64_t* words = inside_.words.data() + inside_.row(row % frame_.size[1], first_layer + row / frame_.size[1]);
     const bool by_winding = nests_.by_winding[crossings.front().nest] != 0;
     int winding = 0;
     for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {

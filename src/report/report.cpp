@@ -199,7 +199,9 @@ std::string to_json(const MeshOptions& options) {
                   {"cavities", volume.cavities == Cavities::Auto   ? "auto"
                                : volume.cavities == Cavities::Fill ? "fill"
                                                                    : "keep"},
-                  {"join", options.join == Join::Touching ? "touching" : options.join == Join::Near ? "near" : "all"},
+                  {"join", options.join == Join::Touching ? "touching"
+                           : options.join == Join::Near   ? "near"
+                                                          : "all"},
                   {"tets", optional_json(lattice.tets)},
                   {"vertices", optional_json(lattice.vertices)},
                   {"edge", optional_json(lattice.edge)},

@@ -73,7 +73,8 @@ void visit_fields(Visitor& v, PseudoVolumeOptions& o) {
   v("rays", o.rays, Words{Word<int>{"26", 26}, Word<int>{"13", 13}});
   v("placement", o.placement,
     Words{Word<Placement>{"closest", Placement::Closest}, Word<Placement>{"entry", Placement::Entry}});
-  v("cavities", o.cavities, Words{Word<Cavities>{"auto", Cavities::Auto}, Word<Cavities>{"fill", Cavities::Fill},
+  v("cavities", o.cavities,
+    Words{Word<Cavities>{"auto", Cavities::Auto}, Word<Cavities>{"fill", Cavities::Fill},
           Word<Cavities>{"keep", Cavities::Keep}});
 }
 
@@ -125,7 +126,8 @@ void visit_fields(Visitor& v, MeshOptions& o) {
   visit_fields(v, o.pseudo_volume);
   visit_fields(v, o.lattice);
   visit_fields(v, o.smooth);
-  v("join", o.join, Words{Word<Join>{"touching", Join::Touching}, Word<Join>{"near", Join::Near}, Word<Join>{"all", Join::All}});
+  v("join", o.join,
+    Words{Word<Join>{"touching", Join::Touching}, Word<Join>{"near", Join::Near}, Word<Join>{"all", Join::All}});
 }
 
 template <class Visitor>

@@ -14,9 +14,7 @@ struct Side {
   std::uint32_t high;
   std::uint32_t triangle;
   std::uint8_t forward;  ///< The triangle runs along it from the lower vertex to the higher.
-  bool operator<(const Side& other) const {
-    return high != other.high ? high < other.high : triangle < other.triangle;
-  }
+  bool operator<(const Side& other) const { return high != other.high ? high < other.high : triangle < other.triangle; }
 };
 
 bool is_segment(const Triangle& t) {
