@@ -105,7 +105,7 @@ TriangleSoup make_turned_block() {
 }
 
 TEST(Fit, finds_how_a_block_lies_and_keeps_the_count) {
-  const Pipeline pipeline = classified(make_turned_block(), 96);
+  const Pipeline pipeline = classified(make_turned_block(), 64);
   LatticeOptions options;
   options.tets = 8 * 4 * 4 * 5;
   options.fit = Fit::Search;

@@ -73,9 +73,7 @@ std::vector<std::string> notes(const Session& session) {
   return call_unlocked([&] {
     const TetMesh& mesh = pipeline.smooth().mesh;
     const Quality quality = measure_quality(mesh);
-    return notes_of({.pipeline = pipeline,
-                     .quality = quality,
-                     .overlap = pipeline.overlap(mesh)});
+    return notes_of({.pipeline = pipeline, .quality = quality, .overlap = pipeline.overlap(mesh)});
   });
 }
 

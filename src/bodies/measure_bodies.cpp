@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/elementary.h"
 #include "base/vec.h"
 #include "bodies/thin_spaces.h"
 #include "tetsoup/bodies.h"
@@ -24,13 +25,7 @@ constexpr double kLeastToEdge = 5, kToEdge = 8;
 constexpr double kTetShape = 8.49;
 
 double edge_for(double volume, double tets) {
-  // Cube root by Newton's steps: the same bits everywhere.
-  const double x = kTetShape * volume / tets;
-  if (!(x > 0)) return 0;
-  double r = std::sqrt(x);
-  if (r > 1) r = std::sqrt(r);
-  for (int i = 0; i < 60; ++i) r = (2 * r + x / (r * r)) / 3;
-  return r;
+  return elementary::cbrt(kTetShape * volume / tets);
 }
 
 /// What the samples of the whole soup say of one body.

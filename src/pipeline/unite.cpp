@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/bits.h"
+#include "base/elementary.h"
 #include "base/vec.h"
 
 namespace tetsoup {
@@ -170,7 +171,7 @@ TetMesh take_mesh(const TetMesh& all, const TetMesh& like, MeshPlace& place) {
 LatticeMesh single_tet(const Box3& box, double volume) {
   const Vec3d middle = (box.lo + box.hi) * 0.5, sides = box.hi - box.lo;
   // Every other corner of a cube of three times the volume. A sheet has none: then one as large as its box.
-  double side = std::cbrt(3 * volume);
+  double side = elementary::cbrt(3 * volume);
   if (!(side > 0)) side = std::max({sides.x, sides.y, sides.z, 1e-30}) / 2;
   const double h = side / 2;
   LatticeMesh result;

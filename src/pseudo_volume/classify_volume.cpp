@@ -130,13 +130,14 @@ class Trials {
 
 /// Tries the candidates from narrow to wide and keeps the first of the best. The rule never looks at how far the field
 /// is known: where that is not far enough to decide, the report asks for more.
-void choose_band(const DistanceField& field, Trials& trials, StageWatch& watch, PseudoVolumeReport& report,
-                 Trial& best) {
+void choose_band(const DistanceField& field, const Evidence& evidence, Trials& trials, StageWatch& watch,
+                 PseudoVolumeReport& report, Trial& best) {
   double best_score = -1;
   std::size_t worse = 0;
   Trial trial;
   for (const double band : kCandidates) {
     if (!is_useful(field, band) || worse >= kWorseInARow) break;
+    if (band > kCandidates.front() && band > evidence.widest_band_voxels) break;
     if (!is_served(field, band)) {
       report.wants_band_voxels = *std::lower_bound(kTiers.begin(), kTiers.end(), band) + kReachVoxels;
       break;
@@ -147,7 +148,7 @@ void choose_band(const DistanceField& field, Trials& trials, StageWatch& watch, 
     const double score = score_solid(trial.surface_share, trial.inside, trial.statistics, watch);
     report.candidates.push_back({band, score, trial.statistics.consensus});
     ++worse;
-    if (score > best_score) {
+    if (score > best_score * evidence.least_gain) {
       best_score = score;
       worse = 0;
       report.band_voxels = band;
@@ -203,7 +204,7 @@ PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptio
   Trial trial;
   if (is_automatic(options)) {
     report.automatic = true;
-    choose_band(field, trials, watch, report, trial);
+    choose_band(field, evidence, trials, watch, report, trial);
   } else {
     const double asked = asked_band_voxels(field, options);
     report.floored = asked < kFloorVoxels;

@@ -10,7 +10,11 @@ namespace tetsoup {
 struct Evidence {
   const CrossingPlanes* planes = nullptr;  ///< Crossings of what the field is the distance of,
   const DistanceField* rims = nullptr;     ///< and the distance to its rims, known as far as the field; or neither.
-  const BitGrid* solids = nullptr;         ///< Inside in any case.
+  /// Wider bands are not tried: half the width of the widest hole there can be.
+  double widest_band_voxels = 1e9;
+  /// A wider band must be better by this factor: where most crossings are exact it can only blur.
+  double least_gain = 1;
+  const BitGrid* solids = nullptr;  ///< Inside in any case.
 };
 
 PseudoVolume classify_volume(const DistanceField& field, const PseudoVolumeOptions& options, const Evidence& evidence,

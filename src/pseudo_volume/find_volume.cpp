@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "base/bits.h"
+#include "base/unions.h"
 #include "base/vec.h"
 #include "pseudo_volume/cavities.h"
 #include "pseudo_volume/classify_volume.h"
@@ -16,6 +18,8 @@ namespace {
 
 /// Of the triangles; soups with more rims than this are loose, and no crossing of theirs says anything.
 constexpr double kMostRims = 0.25;
+/// Of the score: holes that a wider band closes raise it by more, noise by less.
+constexpr double kLeastGain = 1.1;
 
 struct Split {
   std::vector<std::uint32_t> sound, unsound;  ///< Triangles.
@@ -56,12 +60,34 @@ Solids find_solids(const CleanSoup& soup, const GridFrame& frame, Cavities cavit
 
 /// The rims as a soup of segments.
 CleanSoup rims_of(const CleanSoup& soup) {
+  constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> name(soup.soup.vertices.size(), kNone);
+  for (const auto& edge : soup.parts.odd_edges)
+    for (const std::uint32_t v : edge) name[v] = 0;
   CleanSoup rims;
-  rims.soup.vertices = soup.soup.vertices;
-  for (const auto& [a, b] : soup.parts.odd_edges) rims.soup.triangles.push_back({a, a, b});
+  for (std::size_t v = 0; v < name.size(); ++v) {
+    if (name[v] == kNone) continue;
+    name[v] = static_cast<std::uint32_t>(rims.soup.vertices.size());
+    rims.soup.vertices.push_back(soup.soup.vertices[v]);
+  }
+  for (const auto& [a, b] : soup.parts.odd_edges) rims.soup.triangles.push_back({name[a], name[a], name[b]});
   rims.report = soup.report;
   rims.report.used_triangles = rims.soup.triangles.size();
   return rims;
+}
+
+/// Radius of the circle around which the longest rim would run, whatever its shape: no hole is wider than twice that.
+double widest_hole_radius(const CleanSoup& soup) {
+  Unions rims(soup.soup.vertices.size());
+  for (const auto& [a, b] : soup.parts.odd_edges) rims.join(a, b);
+  std::vector<double> around(soup.soup.vertices.size());
+  double longest = 0;
+  for (const auto& [a, b] : soup.parts.odd_edges) {
+    double& sum = around[rims.find(a)];
+    sum += length(to_double(soup.soup.vertices[a]) - to_double(soup.soup.vertices[b]));
+    longest = std::max(longest, sum);
+  }
+  return longest / (2 * std::numbers::pi);
 }
 
 /// What the rays say of parts that are not sound.
@@ -80,6 +106,8 @@ PseudoVolume vote(const CleanSoup& soup, const GridFrame& frame, const PseudoVol
     rim_field = unsigned_distance(rims, frame, kLeastBandVoxels, progress);
     planes = find_crossings(soup.soup, frame, watch);
     evidence.planes = &planes;
+    evidence.least_gain = kLeastGain;
+    evidence.widest_band_voxels = widest_hole_radius(soup) / frame.voxel_size;
     evidence.rims = &rim_field;
   }
   std::optional<double> band = band_needed_voxels(field, options);
@@ -177,7 +205,7 @@ PseudoVolume find_volume(const CleanSoup& soup, const GridFrame& frame, const Ps
   report.exact_share =
       static_cast<double>(split.sound.size()) / static_cast<double>(split.sound.size() + split.unsound.size());
   report.inside_voxels = count_voxels(volume.inside);
-  report.volume = static_cast<double>(report.inside_voxels) * std::pow(frame.voxel_size, 3);
+  report.volume = static_cast<double>(report.inside_voxels) * frame.voxel_size * frame.voxel_size * frame.voxel_size;
   return volume;
 }
 

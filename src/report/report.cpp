@@ -133,6 +133,8 @@ std::string to_json(const PseudoVolumeReport& report) {
                   {"floored", report.floored},
                   {"largest_closure", report.largest_closure},
                   {"inside_voxels", report.inside_voxels},
+                  {"exact_share", report.exact_share},
+                  {"cavities_kept", report.cavities.size()},
                   {"cavity_voxels", report.cavity_voxels},
                   {"volume", report.volume},
                   {"consensus", report.consensus},
