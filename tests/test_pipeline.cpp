@@ -233,7 +233,7 @@ TEST(Paper, the_inside_of_the_torus_is_the_exact_torus_as_far_as_its_triangles_a
   };
   // The solid of its 640 triangles, of which voxels are exact, has .989 in common with the torus, and its volume.
   EXPECT_GE(test::overlap(pipeline.pseudo_volume().inside, in_torus), 0.988);
-  EXPECT_NEAR(pipeline.pseudo_volume().report.volume / std::abs(pipeline.soup().parts.parts.front().volume), 1, 1e-3);
+  EXPECT_NEAR(pipeline.pseudo_volume().report.volume / std::abs(pipeline.soup().parts.parts.front().volume), 1, 5e-3);
 }
 
 TEST(Paper, the_torus_gives_meshes_of_about_139_and_8000_tets_with_its_volume) {
