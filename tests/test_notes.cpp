@@ -24,7 +24,10 @@ MeshOptions small(std::size_t tets = 300) {
 
 std::vector<std::string> notes_on(Pipeline& pipeline, const MeshOptions& options, const std::string& engine = {}) {
   const TetMesh& mesh = pipeline.run(options).mesh;
-  return notes_of({.pipeline = pipeline, .quality = measure_quality(mesh), .engine = engine});
+  return notes_of({.pipeline = pipeline,
+                   .quality = measure_quality(mesh),
+                   .fidelity = measure_fidelity(mesh, pipeline.soup()),
+                   .engine = engine});
 }
 
 bool any_names(const std::vector<std::string>& notes, const std::string& words) {
@@ -54,6 +57,14 @@ TEST(Notes, each_names_the_option_that_changes_what_it_says) {
   options.distance.voxels = 16;
   options.lattice.cells = 24;
   EXPECT_TRUE(any_names(notes_on(coarse, options), "--voxels 32"));
+}
+
+TEST(Notes, a_cup_whose_wall_no_tet_can_be_is_told_with_what_it_does_to_the_mass) {
+  Pipeline pipeline(make_sample("cup", {.wall = 0.01}));
+  const std::vector<std::string> notes = notes_on(pipeline, small());
+  EXPECT_TRUE(any_names(notes, "mass")) << listed(notes);
+  EXPECT_TRUE(any_names(notes, "times the model's")) << listed(notes);
+  EXPECT_TRUE(any_names(notes, "--voxels") || any_names(notes, "--tets")) << listed(notes);
 }
 
 TEST(Notes, an_engine_that_reads_metres_is_told_of_a_giant) {

@@ -88,7 +88,8 @@ void measure(MeshRun& run, bool compare) {
   run.distance = boundary_distance(run.pipeline->smooth().mesh, soup, lattice.report.mean_edge);
   if (compare) run.raw_distance = boundary_distance(lattice.mesh, soup, lattice.report.mean_edge);
   run.iou = run.pipeline->overlap(run.pipeline->smooth().mesh);
-  run.readiness = assess_readiness(run.pipeline->smooth().mesh, run.quality, run.material);
+  run.fidelity = measure_fidelity(run.pipeline->smooth().mesh, run.pipeline->soup());
+  run.readiness = assess_readiness(run.pipeline->smooth().mesh, run.quality, run.fidelity, run.material);
   run.seconds.quality = watch.seconds();
 }
 
@@ -184,7 +185,7 @@ void run_mesh(MeshCommand& command) {
   bar.show("write");
   NewFiles files;
   write_meshes(command, planned, run, files);
-  if (seen) run.notes = notes_of({pipeline, run.quality, run.iou, run.engine, run.material.metres_per_unit});
+  if (seen) run.notes = notes_of({pipeline, run.quality, run.fidelity, run.engine, run.material.metres_per_unit});
   if (command.preview) draw_preview(*command.preview, command.model.up, run, files);
   bar.clear();
   throw_if_interrupted();

@@ -33,6 +33,7 @@ struct MeshRun {
   Quality quality;                     ///< Of the final mesh.
   BoundaryDistance distance;           ///< Of its boundary from the soup, in mean edges of the lattice,
   BoundaryDistance raw_distance;       ///< and of the lattice's.
+  Fidelity fidelity;                   ///< To the soup.
   double iou = 0;                      ///< Of the final mesh and the pseudo volume.
   Material material;
   TetModel model;  ///< What is written.

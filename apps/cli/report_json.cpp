@@ -68,6 +68,7 @@ std::string mesh_report_json(const MeshRun& run) {
                   {"lattice", part(pipeline.lattice().report)},
                   {"smooth", part(pipeline.smooth().report)},
                   {"quality", part(run.quality)},
+                  {"fidelity", part(run.fidelity)},
                   {"embedding", run.model.embedding.tets.empty() ? Json() : part(run.model.embedding.report)},
                   {"regions", Json::parse(regions_json(run.model))},
                   {"pins", Json::parse(pins_json(run.model))},

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "tetsoup/soup.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
@@ -68,6 +69,42 @@ struct BoundaryDistance {
 /// multiples of `unit`, such as the mean edge of the lattice. All 0 if either is empty.
 /// Cost: O((boundary + triangles) log triangles); all threads.
 BoundaryDistance boundary_distance(const TetMesh& mesh, const TriangleSoup& soup, double unit);
+
+/// What became of a soup's shape in a mesh of it. Edges are the mesh's mean edge, each counted as often as it has tets.
+struct Fidelity {
+  double mean_edge = 0;  ///< In the soup's unit.
+  /// Size of the largest stretch of the soup, held together by its surface, that the mesh does not reach: it is farther
+  /// from the mesh than three quarters of an edge. In edges, as all below that are not shares.
+  double lost_edges = 0;
+  std::size_t lost_stretches = 0;  ///< Those longer than 1.5 edges.
+  bool closed = false;             ///< Every edge of the soup has two triangles: it has a volume to compare with.
+  double soup_volume = 0;          ///< Of a closed soup; where its parts overlap they count once, to about a hundredth.
+  double volume_ratio = 1;         ///< Volume of the mesh over that.
+  double wall_edges = 0;           ///< Twice volume over area of a closed soup: how thick it is where it is thin.
+  double volume_limit = 1;         ///< What the ratio may be: 1.1, more where walls are thinner than half an edge.
+  double stray_share = 0;       ///< Of the mesh's volume, outside a closed soup and farther than half an edge from it.
+  std::size_t soup_pieces = 0;  ///< What hangs together at a 256th of the soup's longest side.
+  std::size_t mesh_pieces = 0;  ///< Joined through faces.
+  std::size_t torn_pieces = 0;  ///< Pieces of the mesh beyond one of what hangs together in the soup.
+  std::size_t joined_pieces = 0;  ///< Pieces of the soup that the mesh joins to another, which they do not touch.
+  std::size_t lost_pieces = 0;    ///< Pieces of the soup that the mesh does not reach.
+  double soup_tunnels = 0, mesh_tunnels = 0;  ///< Through both, where the soup is closed and one part; else 0.
+  std::size_t overlapping_pairs = 0;          ///< Tets of one piece that lie in each other,
+  double overlap_share = 0;                   ///< and the share of the mesh's volume that lies in two of them.
+  std::size_t apart_pairs = 0;                ///< The same of tets of two pieces, as where parts are kept apart that
+  double apart_share = 0;                     ///< share a place.
+  bool flat = false;                          ///< The soup is closed and made of planes and sharp edges only.
+  double tilted_share =
+      0;  ///< Of such a soup: share of the boundary's area more than 25 degrees off the soup beside it.
+};
+
+/// Compares a mesh with the soup that it stands for, whatever lay between them: by points on the soup's surface, and
+/// along lines through both. The soup has distinct positions. Windings count where they agree all over it: shells that
+/// turn their outside inwards are cavities then.
+/// Cost: O(n log n), some 10 ms for 2,000 tets and 70,000 triangles; the same bits for any number of threads.
+Fidelity measure_fidelity(const TetMesh& mesh, const TriangleSoup& soup);
+/// The same with the windings that the soup was given in.
+Fidelity measure_fidelity(const TetMesh& mesh, const CleanSoup& soup);
 
 /// Intersection over union of the voxels whose centre lies in the mesh with the `inside` voxels; 1 if both are empty.
 ///

@@ -48,4 +48,9 @@ struct Readiness {
 /// @throws InvalidInput  if the material is out of range.
 Readiness assess_readiness(const TetMesh& mesh, const Quality& quality, const Material& material = {});
 
+/// The same of a mesh that was compared with its soup: what is lost, filled, thickened, torn, joined, pierced, dented
+/// or lies in itself does not pass either. Several pieces do where the soup has as many.
+Readiness assess_readiness(const TetMesh& mesh, const Quality& quality, const Fidelity& fidelity,
+                           const Material& material = {});
+
 }  // namespace tetsoup

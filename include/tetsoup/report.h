@@ -21,6 +21,7 @@ std::string to_json(const PseudoVolumeReport& report);
 std::string to_json(const LatticeReport& report);
 std::string to_json(const SmoothReport& report);
 std::string to_json(const Quality& quality);
+std::string to_json(const Fidelity& fidelity);
 std::string to_json(const Readiness& readiness, const Material& material);
 std::string to_json(const EmbedReport& report);
 std::string to_json(const MeshOptions& options);
@@ -34,7 +35,7 @@ std::string pins_json(const TetModel& model);
 struct Findings {
   const Pipeline& pipeline;  ///< Every stage has run.
   const Quality& quality;    ///< Of the final mesh.
-  double overlap = 1;        ///< Its IoU with the pseudo volume.
+  const Fidelity& fidelity;  ///< Of the same to the soup.
   std::string engine = {};   ///< That the mesh is written for; empty: none.
   double metres_per_unit = 1;
 };

@@ -64,13 +64,16 @@ void bind_meshes(nb::module_& m) {
       .def("quality", [](const TetMesh& self) { return call_unlocked([&] { return measure_quality(self); }); })
       .def(
           "readiness",
-          [](const TetMesh& self, const Quality& quality, std::optional<double> density, std::optional<double> young,
-             std::optional<double> poisson, std::optional<double> metres_per_unit) {
+          [](const TetMesh& self, const Quality& quality, const Fidelity* fidelity, std::optional<double> density,
+             std::optional<double> young, std::optional<double> poisson, std::optional<double> metres_per_unit) {
             const Material material = material_of(density, young, poisson, metres_per_unit);
-            return call_unlocked([&] { return assess_readiness(self, quality, material); });
+            return call_unlocked([&] {
+              return fidelity ? assess_readiness(self, quality, *fidelity, material)
+                              : assess_readiness(self, quality, material);
+            });
           },
-          nb::arg("quality"), nb::arg("density").none(), nb::arg("young").none(), nb::arg("poisson").none(),
-          nb::arg("metres_per_unit").none());
+          nb::arg("quality"), nb::arg("fidelity").none(), nb::arg("density").none(), nb::arg("young").none(),
+          nb::arg("poisson").none(), nb::arg("metres_per_unit").none());
 }
 
 }  // namespace tetsoup::python

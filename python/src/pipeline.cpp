@@ -68,12 +68,16 @@ void save_preview(const Session& session, const std::filesystem::path& path, con
   call_unlocked([&] { write_preview(path, scene, width); });
 }
 
-std::vector<std::string> notes(const Session& session) {
+Fidelity fidelity(const Session& session) {
+  const Pipeline& pipeline = after(session, Stage::Smooth);
+  return call_unlocked([&] { return measure_fidelity(pipeline.smooth().mesh, pipeline.soup()); });
+}
+
+std::vector<std::string> notes(const Session& session, const Fidelity& fidelity) {
   const Pipeline& pipeline = after(session, Stage::Smooth);
   return call_unlocked([&] {
-    const TetMesh& mesh = pipeline.smooth().mesh;
-    const Quality quality = measure_quality(mesh);
-    return notes_of({.pipeline = pipeline, .quality = quality, .overlap = pipeline.overlap(mesh)});
+    const Quality quality = measure_quality(pipeline.smooth().mesh);
+    return notes_of({.pipeline = pipeline, .quality = quality, .fidelity = fidelity});
   });
 }
 
@@ -110,7 +114,8 @@ void bind_pipeline(nb::module_& m) {
       .def("mesh", [](const Session& self) { return after(self, Stage::Smooth).smooth().mesh; })
       .def("smooth_report", [](const Session& self) { return after(self, Stage::Smooth).smooth().report; })
       .def("options", [](const Session& self) { return describe_options(self.options); })
-      .def("notes", &notes)
+      .def("fidelity", &fidelity)
+      .def("notes", &notes, nb::arg("fidelity"))
       .def("seconds", &stage_seconds)
       .def("run_counts", &stage_run_counts)
       .def("save_fields", &save_fields)

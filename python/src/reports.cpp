@@ -148,6 +148,33 @@ void bind_quality(nb::module_& m) {
       .field("percentile95", &D::percentile95, "What 95 % of it is within.");
 }
 
+void bind_fidelity(nb::module_& m) {
+  using R = Fidelity;
+  Record<R>(m, "Fidelity", "What became of a soup's shape in a mesh. Edges are the mesh's mean edge.")
+      .field("mean_edge", &R::mean_edge, "In the soup's unit.")
+      .field("lost_edges", &R::lost_edges, "Size of the largest stretch of the soup without tets, edges.")
+      .field("lost_stretches", &R::lost_stretches, "Those longer than 1.5 edges.")
+      .field("closed", &R::closed, "The soup has a volume to compare with.")
+      .field("soup_volume", &R::soup_volume, "Of a closed soup; parts that overlap count once.")
+      .field("volume_ratio", &R::volume_ratio, "Volume of the mesh over that.")
+      .field("wall_edges", &R::wall_edges, "Twice volume over area of a closed soup, edges.")
+      .field("volume_limit", &R::volume_limit, "What the ratio may be: 1.1, more where walls are thin.")
+      .field("stray_share", &R::stray_share, "Of the mesh's volume, outside the soup and half an edge from it.")
+      .field("soup_pieces", &R::soup_pieces, "What hangs together at a 256th of the soup's longest side.")
+      .field("mesh_pieces", &R::mesh_pieces, "Joined through faces.")
+      .field("torn_pieces", &R::torn_pieces, "Pieces of the mesh beyond one of each of the soup's.")
+      .field("joined_pieces", &R::joined_pieces, "Pieces of the soup that the mesh joins to others.")
+      .field("lost_pieces", &R::lost_pieces, "Pieces of the soup without tets.")
+      .field("soup_tunnels", &R::soup_tunnels, "Through the soup, where it is closed and one part.")
+      .field("mesh_tunnels", &R::mesh_tunnels, "Through the mesh, where the soup's are known.")
+      .field("overlapping_pairs", &R::overlapping_pairs, "Tets of one piece that lie in each other.")
+      .field("overlap_share", &R::overlap_share, "Of the mesh's volume, in two tets of one piece.")
+      .field("apart_pairs", &R::apart_pairs, "Tets of two pieces that lie in each other.")
+      .field("apart_share", &R::apart_share, "Of the mesh's volume, in tets of two pieces.")
+      .field("flat", &R::flat, "The soup is closed, of planes and sharp edges only.")
+      .field("tilted_share", &R::tilted_share, "Of a flat soup's mesh: share of its surface that is dented.");
+}
+
 void bind_readiness(nb::module_& m) {
   using C = ReadinessCheck;
   Record<C>(m, "ReadinessCheck", "One thing that simulations suffer from, measured.")
@@ -186,6 +213,7 @@ void bind_reports(nb::module_& m) {
   bind_lattice_report(m);
   bind_smooth_report(m);
   bind_quality(m);
+  bind_fidelity(m);
   bind_readiness(m);
   bind_embed_report(m);
 }

@@ -135,6 +135,10 @@ void bind_functions(nb::module_& m) {
         return std::pair(std::move(result.mesh), std::move(result.report));
       },
       nb::arg("mesh"), nb::arg("volume").none(), nb::arg("enclosed"), nb::arg("options"), nb::arg("progress").none());
+  m.def("fidelity", [](const TetMesh& mesh, PointsIn vertices, FacesIn faces) {
+    const TriangleSoup soup = copy_soup(vertices, faces);
+    return call_unlocked([&] { return measure_fidelity(mesh, clean_soup(soup)); });
+  });
   m.def("boundary_distance", [](const TetMesh& mesh, PointsIn vertices, FacesIn faces, double unit) {
     const TriangleSoup soup = copy_soup(vertices, faces);
     return call_unlocked([&] { return boundary_distance(mesh, soup, unit); });

@@ -113,6 +113,19 @@ def overlap(mesh: TetMesh, volume: PseudoVolume) -> float:
     return volume.overlap(mesh._handle)
 
 
+def fidelity(mesh: TetMesh, soup: Any) -> Fidelity:
+    """What became of a soup's shape in a mesh of it: what was lost, filled, torn, joined; `mesh.report` has it too.
+
+    Args:
+        soup: whatever `tetrahedralize` takes as one object.
+
+    Example:
+        >>> tetsoup.fidelity(mesh, "bunny.ply").volume_ratio
+        1.01
+    """
+    return _core.fidelity(mesh._handle, *as_soup(soup))
+
+
 def boundary_distance(mesh: TetMesh, soup: Any, unit: float = 1) -> BoundaryDistance:
     """How far the mesh's boundary lies from the triangles: mean, and what 95 % of it is within.
 
@@ -201,6 +214,7 @@ __all__ = [
     "EmbedReport",
     "Embedding",
     "Energy",
+    "Fidelity",
     "InvalidInput",
     "IoError",
     "LatticeMesh",
@@ -241,6 +255,7 @@ __all__ = [
     "default_options",
     "embed",
     "engines",
+    "fidelity",
     "fill_lattice",
     "formats",
     "overlap",

@@ -35,6 +35,8 @@ class Report:
     """Wall time of every stage."""
     options: dict[str, Any]
     """Every option the mesh was made with, those left to their defaults too."""
+    fidelity: _core.Fidelity
+    """What became of the soup's shape."""
     notes: list[str]
     """What you should know of the mesh, and the option of `tetsoup mesh` that changes it (``--rho-min``: `rho_min`)."""
 
@@ -121,6 +123,8 @@ class TetMesh:
     ) -> _core.Readiness:
         """Will an engine simulate this well, what to change if not; mass, and a stable explicit time step.
 
+        A mesh with a report is also compared with the soup it was made of.
+
         Args:
             density: kg/m^3 (1000).
             young: Young's modulus, Pa (1e5).
@@ -134,7 +138,9 @@ class TetMesh:
             >>> [check.advice for check in mesh.readiness().checks if not check.passed]
             []
         """
-        return self._handle.readiness(self.quality, density, young, poisson, metres_per_unit)
+        report = self.__dict__.get("report")
+        fidelity = None if report is None else report.fidelity
+        return self._handle.readiness(self.quality, fidelity, density, young, poisson, metres_per_unit)
 
     def save(
         self,

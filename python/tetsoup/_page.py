@@ -67,6 +67,7 @@ def _as_json(report: Report | None) -> str:
         "lattice": report.lattice.as_dict(),
         "options": report.options,
         "seconds": report.seconds,
+        "fidelity": report.fidelity.as_dict(),
         "notes": report.notes,
     }
     return json.dumps(found, default=str)

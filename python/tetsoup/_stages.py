@@ -269,6 +269,7 @@ class Pipeline:
 
 
 def _report(core: _core.Pipeline) -> Report:
+    fidelity = core.fidelity()
     return Report(
         core.soup_report(),
         core.volume_report(),
@@ -276,7 +277,8 @@ def _report(core: _core.Pipeline) -> Report:
         core.smooth_report(),
         core.seconds(),
         core.options(),
-        core.notes(),
+        fidelity,
+        core.notes(fidelity),
     )
 
 

@@ -21,7 +21,7 @@ inline std::string counted(std::size_t count, std::string_view noun) {
   std::string text = grouped(count) + " " + std::string(noun);
   if (count == 1) return text;
   if (noun == "vertex") return text.replace(text.size() - 2, 2, "ices");
-  return text + (text.ends_with('s') ? "es" : "s");
+  return text + (text.ends_with('s') || text.ends_with("ch") ? "es" : "s");
 }
 
 /// To so many digits, as short as they allow.

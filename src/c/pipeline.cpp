@@ -97,11 +97,11 @@ Json report_of(const tetsoup_pipeline& p, const char* material_json) {
     const Material material = parse_material(c::options_or_none(material_json)).elastic;
     report["smooth"] = part(pipeline.smooth().report);
     report["quality"] = part(quality);
-    report["readiness"] = part(assess_readiness(mesh, quality, material), material);
-    report["notes"] = notes_of({.pipeline = pipeline,
-                                .quality = quality,
-                                .overlap = pipeline.overlap(mesh),
-                                .metres_per_unit = material.metres_per_unit});
+    const Fidelity fidelity = measure_fidelity(mesh, pipeline.soup());
+    report["fidelity"] = part(fidelity);
+    report["readiness"] = part(assess_readiness(mesh, quality, fidelity, material), material);
+    report["notes"] = notes_of(
+        {.pipeline = pipeline, .quality = quality, .fidelity = fidelity, .metres_per_unit = material.metres_per_unit});
   }
   for (std::size_t stage = 0; stage <= static_cast<std::size_t>(p.done); ++stage)
     report["seconds"][kStageNames[stage]] = pipeline.seconds(static_cast<Stage>(stage));

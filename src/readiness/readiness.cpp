@@ -17,7 +17,12 @@ constexpr double kMinDihedral = 20, kMaxDihedral = 155;  ///< Degrees; outside, 
 constexpr double kMaxEdgeRatio = 3.5;
 constexpr double kMaxVolumeRatio = 100;   ///< Largest over smallest tet: beyond, the smallest sets the time step.
 constexpr double kMaxBoundaryOnly = 0.5;  ///< Share of tets without an interior vertex: beyond, the body is too stiff.
-constexpr double kRounding = 1e-6;        ///< Relative; a limit that was met by construction counts as met.
+constexpr double kLongestLost = 1.5;    ///< Edges of the model without mesh: less is the coarseness that was asked for.
+constexpr double kLeastVolume = 0.9;    ///< Of the model's; what is more, Fidelity says.
+constexpr double kMostStray = 0.02;     ///< Share of the mesh that stands where nothing of the model is near.
+constexpr double kMostOverlap = 0.001;  ///< Share of the mesh within two tets: contacts begin there.
+constexpr double kMostTilted = 0.1;     ///< Share of a flat model's boundary that is dented.
+constexpr double kRounding = 1e-6;      ///< Relative; a limit that was met by construction counts as met.
 
 /// Largest eigenvalue of the symmetric matrix (a d e; d b f; e f c) [Smith61].
 double largest_eigenvalue(double a, double b, double c, double d, double e, double f) {
@@ -68,6 +73,47 @@ ReadinessCheck at_least(std::string_view name, std::string_view title, double va
   return {name, title, value, limit, true, value >= limit * (1 - kRounding), advice};
 }
 
+/// Only what the soup has a truth for.
+void add_fidelity(const Fidelity& f, const Quality& quality, std::vector<ReadinessCheck>& checks) {
+  const auto count = [](std::size_t n) { return static_cast<double>(n); };
+  const bool is_layer = 2 * quality.volume < quality.boundary_area * f.mean_edge;  // thinner than a tet: no room inside
+  for (ReadinessCheck& check : checks) {
+    if (check.name == "components")
+      check = at_most(check.name, check.title, check.value, std::max(1.0, count(f.soup_pieces)), check.advice);
+    if (check.name == "boundary_only_share" && is_layer)
+      check = at_most(check.name, check.title, check.value, 1, check.advice);
+  }
+  checks.push_back(at_most("lost_edges", "longest stretch of the model without mesh, edges", f.lost_edges, kLongestLost,
+                           "more voxels, a lower rho-min (0.2), or more tets"));
+  checks.push_back(at_most("lost_pieces", "pieces of the model without mesh", count(f.lost_pieces), 0,
+                           "min-part = 0 keeps small pieces; more tets make room for all"));
+  checks.push_back(at_most("torn_pieces", "pieces that the model has in one", count(f.torn_pieces), 0,
+                           "a lower rho-min (0.2) or more tets; to drop crumbs, a min-part of 0.05"));
+  checks.push_back(at_most("joined_pieces", "pieces joined that the model has apart", count(f.joined_pieces), 0,
+                           "more voxels and more tets, or mesh the parts one by one"));
+  checks.push_back(at_most("overlap_share", "share of the mesh that lies in it twice", f.overlap_share, kMostOverlap,
+                           "no snapping (snap = off), fewer passes, or another tet count"));
+  if (f.closed) {
+    checks.push_back(at_least("volume_share", "volume over the model's, at least", f.volume_ratio, kLeastVolume,
+                              "more voxels, a lower rho-min (0.3), or more tets"));
+    checks.push_back(at_most("volume_ratio", "volume over the model's, at most", f.volume_ratio, f.volume_limit,
+                             "more voxels where walls are thinner than a few of them, and more tets where they are "
+                             "thinner than a tet"));
+    checks.push_back(at_most("stray_share", "share of the mesh away from the model", f.stray_share, kMostStray,
+                             "what is open was filled: more voxels, or cavities = keep for what is closed"));
+  }
+  if (f.closed && f.soup_pieces == 1)
+    checks.push_back(at_most("tunnels", "holes through the mesh", f.mesh_tunnels, f.soup_tunnels,
+                             "a lower rho-min (0.2), more voxels, or more tets"));
+  if (f.flat)
+    checks.push_back(at_most("tilted_share", "share of a flat model's surface that is dented", f.tilted_share,
+                             kMostTilted, "more tets, or turn the lattice (rotate, fit = search)"));
+}
+
+bool all_pass(const std::vector<ReadinessCheck>& checks) {
+  return std::all_of(checks.begin(), checks.end(), [](const ReadinessCheck& c) { return c.passed; });
+}
+
 }  // namespace
 
 void check_material(const Material& m) {
@@ -107,10 +153,17 @@ Readiness assess_readiness(const TetMesh& mesh, const Quality& quality, const Ma
               share(quality.boundary_only_tets, quality.tet_count), kMaxBoundaryOnly,
               "they make thin parts stiff: more tets, or boundary-only = split"),
   };
-  result.passed =
-      std::all_of(result.checks.begin(), result.checks.end(), [](const ReadinessCheck& c) { return c.passed; });
+  result.passed = all_pass(result.checks);
   result.mass = material.density * quality.volume * elementary::cube(material.metres_per_unit);
   result.stable_time_step = stable_time_step(mesh, material);
+  return result;
+}
+
+Readiness assess_readiness(const TetMesh& mesh, const Quality& quality, const Fidelity& fidelity,
+                           const Material& material) {
+  Readiness result = assess_readiness(mesh, quality, material);
+  add_fidelity(fidelity, quality, result.checks);
+  result.passed = all_pass(result.checks);
   return result;
 }
 

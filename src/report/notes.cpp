@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/words.h"
+#include "report/fidelity_notes.h"
 #include "tetsoup/report.h"
 
 namespace tetsoup {
@@ -12,8 +13,6 @@ namespace {
 
 using Notes = std::vector<std::string>;
 
-/// Below this overlap the mesh misses features that its voxels show; the default lattice of solid models reaches more.
-constexpr double kLowOverlap = 0.75;
 /// Beyond this share of tets judged without a voxel centre, the lattice is finer than the grid that it was cut from.
 constexpr double kManySampled = 0.1;
 
@@ -59,9 +58,6 @@ void note_lattice(const Findings& found, Notes& notes) {
                     std::to_string(std::min(2 * (longest_of(frame.size) - 2 * frame.pad), kMostVoxels)) +
                     ") show more of the shape.");
   }
-  if (found.overlap < kLowOverlap)
-    notes.push_back("The mesh follows the shape only roughly. More tets follow it more closely: --tets " +
-                    std::to_string(4 * found.quality.tet_count) + ".");
 }
 
 void note_faults(const Quality& quality, Notes& notes) {
@@ -114,6 +110,7 @@ std::vector<std::string> notes_of(const Findings& found) {
   append(notes, pipeline.lattice().report.notes);
   append(notes, pipeline.smooth().report.notes);
   note_faults(found.quality, notes);
+  note_fidelity(found, notes);
   note_size(found, notes);
   note_pieces(found, notes);
   return notes;

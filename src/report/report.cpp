@@ -113,6 +113,31 @@ std::string to_json(const Quality& quality) {
                   {"boundary_curvature", quality.boundary_curvature}});
 }
 
+std::string to_json(const Fidelity& fidelity) {
+  return text_of({{"mean_edge", fidelity.mean_edge},
+                  {"lost_edges", fidelity.lost_edges},
+                  {"lost_stretches", fidelity.lost_stretches},
+                  {"closed", fidelity.closed},
+                  {"soup_volume", fidelity.soup_volume},
+                  {"volume_ratio", fidelity.volume_ratio},
+                  {"wall_edges", fidelity.wall_edges},
+                  {"volume_limit", fidelity.volume_limit},
+                  {"stray_share", fidelity.stray_share},
+                  {"soup_pieces", fidelity.soup_pieces},
+                  {"mesh_pieces", fidelity.mesh_pieces},
+                  {"torn_pieces", fidelity.torn_pieces},
+                  {"joined_pieces", fidelity.joined_pieces},
+                  {"lost_pieces", fidelity.lost_pieces},
+                  {"soup_tunnels", fidelity.soup_tunnels},
+                  {"mesh_tunnels", fidelity.mesh_tunnels},
+                  {"overlapping_pairs", fidelity.overlapping_pairs},
+                  {"overlap_share", fidelity.overlap_share},
+                  {"apart_pairs", fidelity.apart_pairs},
+                  {"apart_share", fidelity.apart_share},
+                  {"flat", fidelity.flat},
+                  {"tilted_share", fidelity.tilted_share}});
+}
+
 std::string to_json(const GridFrame& frame) {
   return text_of({{"size", frame.size},
                   {"pad", frame.pad},
