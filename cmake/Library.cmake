@@ -40,4 +40,6 @@ function(tetsoup_add_library name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_compile_definitions(${name} PRIVATE $<$<BOOL:${TETSOUP_CHECKED}>:TETSOUP_CHECKED>)
   tetsoup_set_warnings(${name})
+  # Tells libFuzzer where the code goes; other programs do not mind.
+  target_compile_options(${name} PRIVATE $<$<BOOL:${TETSOUP_FUZZ}>:-fsanitize=fuzzer-no-link>)
 endfunction()
