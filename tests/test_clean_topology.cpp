@@ -260,8 +260,9 @@ TEST(CleanTopology, a_cavity_of_which_not_all_is_listed_stays) {
 }
 
 TEST(CleanTopology, crumbs_go_and_what_is_large_enough_stays) {
-  Candidates c = block_candidates({9, 4, 3});
+  Candidates c = block_candidates({9, 4, 3}), bar = c;
   keep_inside(c, [](const Vec3d& p) { return p.x < 3 || (p.x > 5 && p.x < 6 && p.y < 1 && p.z < 1); });
+  keep_inside(bar, [](const Vec3d& p) { return p.x < 3 || (p.x > 5 && p.x < 8 && p.y < 1 && p.z < 1); });
   const double whole = quality_of(c).volume;  // 36 cells and one
   Candidates kept = c, held = c;
   TopologyOptions options = nothing();
@@ -269,7 +270,11 @@ TEST(CleanTopology, crumbs_go_and_what_is_large_enough_stays) {
   EXPECT_TRUE(did_nothing(clean(kept, options)));
   options.min_part = 1.1 / 37;
   for (std::uint8_t& k : held.kept) k = k != 0 ? kHeld : 0;
-  EXPECT_TRUE(did_nothing(clean(held, options))) << "what is held stays, however small";
+  EXPECT_EQ(clean(held, options).parts_dropped, 1U) << "a speck goes even where it is held";
+  for (std::uint8_t& k : bar.kept) k = k != 0 ? kHeld : 0;
+  options.min_part = 0.5;
+  EXPECT_TRUE(did_nothing(clean(bar, options))) << "what is held and has some length stays";
+  options.min_part = 1.1 / 37;
   const TopologyReport r = clean(c, options);
   EXPECT_EQ(r.parts_dropped, 1U);
   EXPECT_NEAR(r.dropped_volume, 1, 1e-6);

@@ -25,7 +25,7 @@ enum class Fit {
 };
 
 enum class Thin {
-  Keep,  ///< Where a piece of the soup would lose its cover, the tets it passes through stay.
+  Keep,  ///< No tet goes that holds the body together, or without which a part of it would be bare.
   Drop,  ///< Density alone decides.
 };
 
@@ -136,9 +136,10 @@ struct LatticeMesh {
 ///
 /// A tet's density is the share of inside voxels among all voxels whose centre it holds [Spillmann06 §4], counted
 /// exactly: every voxel centre belongs to exactly one tet. A tet too small to hold one is judged at 35 sample points
-/// instead. If nothing is dense enough (a lone sheet, a needle), the tets that the soup passes through are kept. Then
-/// come stairs, thin parts, separation and the clean-up of the topology, as the options say, and the edge is searched
-/// for, in at most eight fills, with which all that leaves the wanted count.
+/// instead. First every tet is kept that holds something of the volume, or of the soup where it has none beside it; of
+/// a lone sheet or a needle those that the soup passes through. Parts are kept apart, then the tets below rho_min go as
+/// far as that tears, closes and bares nothing. Then come stairs and the clean-up of the topology, as the options say,
+/// and the edge is searched for, in at most sixteen fills, with which all that leaves the wanted count.
 ///
 /// @return  Positive tets, faces matching, boundary a closed manifold unless Touching::Leave, never empty if the soup
 /// is

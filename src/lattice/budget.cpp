@@ -78,10 +78,10 @@ class Search {
     double cell_size = pose_.cell_size;
     for (int i = 0; i < most_fills; ++i) {
       cell_size = std::clamp(cell_size, smallest, std::max(smallest, largest));
-      if (!tries_.empty() && !crumbs_ && cell_size == pose_.cell_size) break;
+      if (!tries_.empty() && cell_size == pose_.cell_size) break;
       set_pose(cell_size);
-      try_pose(i);
-      if (std::abs(elementary::exp(tries_.back().miss) - 1) <= stop && !crumbs_) break;
+      try_pose();
+      if (std::abs(elementary::exp(tries_.back().miss) - 1) <= stop) break;
       cell_size = elementary::exp(next_log_edge(tries_, fitted_power(tries_, filler_.has_volume() ? 3 : 2)));
       if (tuning_ == FineTuning::Frame) tune_after(i + 1);
     }
@@ -104,22 +104,14 @@ class Search {
     turned_ = turned_ || turns;
   }
 
-  /// The first time that density leaves crumbs the edge may be to blame; the next time the soup decides.
-  void try_pose(int i) {
-    Fill fill = filler_.fill(pose_, i == 0 ? Filler::Crumbs::Report : Filler::Crumbs::BySoup);
-    if (fill.by_soup && filler_.has_volume()) {
-      filler_.stay_with_soup();
-      tries_.clear();
-      best_miss_ = 1e300;
-    }
-    crumbs_ = fill.crumbs;
+  void try_pose() {
+    Fill fill = filler_.fill(pose_);
     const double count = std::max(0.5, static_cast<double>(budget_.count(fill)));
     tries_.push_back({elementary::log(pose_.cell_size), elementary::log(count / static_cast<double>(budget_.wanted))});
-    const double miss = std::abs(tries_.back().miss) + (crumbs_ ? 1e6 : 0);
-    if (miss < best_miss_) {
-      best_miss_ = miss;
-      best_ = std::move(fill);
-    }
+    const double miss = std::abs(tries_.back().miss);
+    if (miss >= best_miss_) return;
+    best_miss_ = miss;
+    best_ = std::move(fill);
   }
 
   Filler& filler_;
@@ -128,7 +120,6 @@ class Search {
   FineTuning tuning_;
   Place place_;
   std::vector<Try> tries_;
-  bool crumbs_ = false;
   bool turned_ = false;
   Fill best_;
   double best_miss_ = 1e300;

@@ -21,7 +21,7 @@ struct Budget {
   double tolerance() const;
 };
 
-inline constexpr int kMostFills = 8;
+inline constexpr int kMostFills = 16;
 
 /// What the search may change besides the edge.
 enum class FineTuning {

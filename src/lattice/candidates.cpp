@@ -1,8 +1,20 @@
 #include "lattice/candidates.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "base/elementary.h"
+#include "base/tet_geometry.h"
+
 namespace tetsoup {
+
+double lattice_edge(const TetMesh& mesh) {
+  double volume = 0;
+  for (const Tet& tet : mesh.tets) volume += signed_volume(corners_of(mesh, tet));
+  return elementary::cbrt(6 * std::sqrt(2.0) * volume /
+                          static_cast<double>(std::max<std::size_t>(1, mesh.tets.size())));
+}
 
 TetMesh kept_mesh(const Candidates& candidates) {
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();

@@ -4,6 +4,7 @@
 
 #include "base/require.h"
 #include "base/unions.h"
+#include "base/vec.h"
 #include "lattice/boundary_only.h"
 #include "lattice/mend_touching.h"
 #include "lattice/tet_complex.h"
@@ -12,35 +13,58 @@ namespace tetsoup {
 namespace {
 
 constexpr int kMostRounds = 8;  ///< Of filling bubbles and mending before mending may add no more tets.
+/// Lattice edges, across: held tets that stand alone in a smaller heap are what a stray voxel left.
+constexpr double kSpeck = 2.5;
 
-/// Components, joined through faces, below `min_part` of the volume; the largest stays, and those with a held tet.
+/// Of a component: what drop_parts() asks.
+struct Part {
+  double volume = 0;
+  bool is_held = false;
+  Vec3d lo{1e300, 1e300, 1e300}, hi{-1e300, -1e300, -1e300};
+};
+
+/// By the component's first tet.
+std::vector<Part> parts_of(const TetComplex& complex, Unions& sets) {
+  std::vector<Part> parts(complex.tet_count());
+  for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
+    if (!complex.is_kept(t)) continue;
+    Part& part = parts[sets.find(t)];
+    part.volume += complex.volume(t);
+    part.is_held = part.is_held || complex.is_held(t);
+    for (const std::uint32_t v : complex.corners(t)) {
+      part.lo = min(part.lo, to_double(complex.mesh().vertices[v]));
+      part.hi = max(part.hi, to_double(complex.mesh().vertices[v]));
+    }
+  }
+  return parts;
+}
+
+/// Components, joined through faces, below `min_part` of the volume; the largest stays, and those with a held tet
+/// unless they are specks.
 void drop_parts(TetComplex& complex, double min_part, TopologyReport& report) {
-  Unions parts(complex.tet_count());
+  Unions sets(complex.tet_count());
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
     if (!complex.is_kept(t)) continue;
     for (std::size_t i = 0; i < 4; ++i)
-      if (const std::uint32_t n = complex.neighbour(t, i); n < t && complex.is_kept(n)) parts.join(n, t);
+      if (const std::uint32_t n = complex.neighbour(t, i); n < t && complex.is_kept(n)) sets.join(n, t);
   }
-  std::vector<double> volume(complex.tet_count(), 0);  // by the part's first tet
-  std::vector<std::uint8_t> is_held(complex.tet_count(), 0);
+  const std::vector<Part> parts = parts_of(complex, sets);
   double whole = 0;
-  for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
-    if (!complex.is_kept(t)) continue;
-    const double v = complex.volume(t);
-    const std::size_t part = parts.find(t);
-    volume[part] += v;
-    if (complex.is_held(t)) is_held[part] = 1;
-    whole += v;
-  }
-  const auto largest = static_cast<std::size_t>(std::max_element(volume.begin(), volume.end()) - volume.begin());
-  const auto is_small = [&](std::size_t part) {
-    return part != largest && !is_held[part] && volume[part] < min_part * whole;
+  for (const Part& part : parts) whole += part.volume;
+  const double speck = kSpeck * lattice_edge(complex.mesh());
+  const auto largest = static_cast<std::size_t>(
+      std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.volume < b.volume; }) -
+      parts.begin());
+  const auto is_small = [&](std::size_t i) {
+    const Part& part = parts[i];
+    return i != largest && part.volume < min_part * whole && (!part.is_held || length(part.hi - part.lo) < speck);
   };
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
-    if (!complex.is_kept(t) || !is_small(parts.find(t))) continue;
-    if (parts.find(t) == t) {
+    const std::size_t part = sets.find(t);
+    if (!complex.is_kept(t) || !is_small(part)) continue;
+    if (part == t) {
       ++report.parts_dropped;
-      report.dropped_volume += volume[t];
+      report.dropped_volume += parts[part].volume;
     }
     complex.set_state(t, 0);
   }

@@ -36,6 +36,10 @@ std::vector<std::uint32_t> holders_of(const Candidates& candidates, std::span<co
 
 }  // namespace
 
+void keep_cover(Candidates& candidates) {
+  for (std::size_t t = 0; t < candidates.kept.size(); ++t) candidates.kept[t] = candidates.density[t] > 0;
+}
+
 std::size_t keep_enclosing_tets(Candidates& candidates, std::span<const Vec3> points, StageWatch& watch) {
   std::size_t count = 0;
   for (const std::uint32_t t : holders_of(candidates, points, watch)) {
@@ -76,7 +80,6 @@ void keep_inside_tets(Candidates& candidates) {
   candidates.mesh.tets.resize(count);
   candidates.density.resize(count);
   candidates.kept.assign(count, 1);
-  candidates.passed.clear();
 }
 
 }  // namespace tetsoup

@@ -9,6 +9,9 @@
 
 namespace tetsoup {
 
+/// Keeps every tet that holds something of the body.
+void keep_cover(Candidates& candidates);
+
 /// Keeps a tet around every point that no kept tet holds: of those that hold it the one with most inside. One tet
 /// around every point is marked kHeld. Points that no candidate holds are left out. Returns the tets kept. Cost: O(tets
 /// + points), all threads.

@@ -22,7 +22,6 @@ struct FilledCell {
 struct FilledCells {
   std::vector<FilledCell> cells;
   std::vector<float> densities;  ///< Of every tet of each of these cells: the share of it that is inside.
-  std::vector<float> passed;     ///< The same with the soup's own voxels, if somebody asks: see Candidates.
   std::size_t kept_tets = 0;
   std::size_t sampled_tets = 0;
 };

@@ -1,7 +1,6 @@
 #include "lattice/even_out.h"
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "base/elementary.h"
@@ -20,7 +19,7 @@ constexpr double kUnclear = 0.5;  // Of the way from rho_min to none and to all:
 class Evening {
  public:
   Evening(Candidates& candidates, double rho_min)
-      : mesh_(candidates.mesh), complex_(candidates), rho_min_(rho_min), edge_(mean_edge()) {}
+      : mesh_(candidates.mesh), complex_(candidates), rho_min_(rho_min), edge_(lattice_edge(mesh_)) {}
 
   std::size_t round() {
     std::vector<std::uint32_t> open;
@@ -33,12 +32,6 @@ class Evening {
   }
 
  private:
-  double mean_edge() const {
-    double volume = 0;
-    for (std::uint32_t t = 0; t < complex_.tet_count(); ++t) volume += complex_.volume(t);
-    return elementary::cbrt(6 * std::sqrt(2.0) * volume / std::max(1U, complex_.tet_count()));
-  }
-
   bool is_unclear(std::uint32_t t) const {
     const double density = complex_.density(t);
     return density >= rho_min_ * (1 - kUnclear) && density <= rho_min_ + (1 - rho_min_) * kUnclear &&

@@ -8,13 +8,13 @@
 #include "base/bits.h"
 #include "base/mesh_voxels.h"
 #include "base/require.h"
+#include "lattice/body_voxels.h"
+#include "lattice/carve.h"
 #include "lattice/clean_topology.h"
 #include "lattice/cover.h"
 #include "lattice/even_out.h"
 #include "lattice/gather_candidates.h"
-#include "lattice/passed_voxels.h"
 #include "lattice/separate.h"
-#include "lattice/thin_parts.h"
 
 namespace tetsoup {
 namespace {
@@ -22,18 +22,9 @@ namespace {
 constexpr int kMaxCells = 4096;  ///< Along the longest axis.
 constexpr double kMaxTets = 2147483648.0;
 constexpr double kLeastCovered = 0.25;  ///< A pseudo volume that covers less of the soup is nothing but stray voxels.
+constexpr double kMostlyExact = 0.5;    ///< Share of the soup; voxels that are exact are a volume, however thin.
 constexpr double kLeastCore =
     0.02;  ///< Share of inside voxels within inside voxels; below, the volume is a mere sheet.
-
-/// Whether density left a body: at least every second tet has another of its own cell beside it. What it leaves of a
-/// sheet thinner than a cell is crumbs.
-bool holds_together(const FilledCells& filled, const LatticeTable& table) {
-  std::size_t beside = 0;
-  for (const FilledCell& c : filled.cells)
-    for (std::size_t t = 0; t < table.tet_count; ++t)
-      beside += (c.kept >> t & 1U) != 0 && (c.kept & table.beside[t]) != 0;
-  return beside > 0 && 2 * beside >= filled.kept_tets;
-}
 
 struct CoreCounts {
   std::size_t all = 0, core = 0;
@@ -92,36 +83,59 @@ Filler::Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeO
       watch_(watch),
       grid_(volume.inside.frame),
       table_(lattice_table(options.kind)),
-      inside_(volume.inside, watch) {
-  has_volume_ = volume.report.inside_voxels > 0 && volume.report.soup_covered >= kLeastCovered &&
-                core_share(volume.inside, watch) >= kLeastCore;
-  const bool covers_soup =
-      options.cover == Cover::Enclose || (options.thin == Thin::Keep && options.cover != Cover::Inside);
-  if (has_volume_ && covers_soup) {
-    passed_ = passed_voxels(volume.inside, soup, watch);
-    passed_blocks_.emplace(*passed_, watch);
-  }
+      has_volume_(find_volume()),
+      body_(find_body()),
+      blocks_(body_, watch) {}
+
+bool Filler::find_volume() const {
+  const PseudoVolumeReport& report = volume_.report;
+  return report.inside_voxels > 0 && report.soup_covered >= kLeastCovered &&
+         (report.exact_share >= kMostlyExact || core_share(volume_.inside, watch_) >= kLeastCore);
 }
 
-Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
+BitGrid Filler::find_body() const {
+  if (!has_volume_) return soup_voxels(grid_, soup_, watch_);
+  const bool covers_soup = options_.thin == Thin::Keep && options_.cover != Cover::Inside;
+  return covers_soup ? body_voxels(volume_.inside, soup_, watch_) : volume_.inside;
+}
+
+Fill Filler::fill(const Pose& pose) {
   check_cell(pose.cell_size);
   const double overhang = static_cast<double>(table_.reach) / kStepsPerCell - 1;
-  Fill fill{pose, make_lattice_frame(grid_, pose, overhang), {}, false, false, 0, 0, {}};
+  Fill fill{pose, make_lattice_frame(grid_, pose, overhang), {}, false, 0, 0, {}};
   ++fills_;
-  FilledCells filled = find_densities(inside_, fill.frame, table_, options_.rho_min, watch_);
-  fill.crumbs = !has_volume_ || !holds_together(filled, table_);
-  if (fill.crumbs && (!has_volume_ || crumbs == Crumbs::BySoup)) {
-    keep_crossed_tets(soup_, fill.frame, table_, filled, watch_);
-    fill.by_soup = true;
-    fill.crumbs = false;
-  }
+  FilledCells filled = find_densities(blocks_, fill.frame, table_, options_.rho_min, watch_);
+  fill.by_soup = !has_volume_ || (filled.kept_tets == 0 && options_.thin == Thin::Drop);
+  if (fill.by_soup) keep_crossed_tets(soup_, fill.frame, table_, filled, watch_);
   fill.dense_tets = filled.kept_tets;
-  if (!fill.by_soup && !fill.crumbs && passed_)
-    add_passed(find_densities(*passed_blocks_, fill.frame, table_, options_.rho_min, watch_), table_.tet_count, filled);
   fill.sampled_tets = filled.sampled_tets;
   fill.candidates = gather_candidates(filled, fill.frame, table_);
-  if (!fill.crumbs) mend(fill);
+  mend(fill);
   return fill;
+}
+
+/// Whatever holds something of the body is kept first, each part of the body with its own copy; then what is not
+/// needed goes.
+void Filler::carve_cover(Fill& fill) {
+  constexpr double kNoneDense = 2;  // a sheet fills no tet
+  Candidates& candidates = fill.candidates;
+  if (fill.by_soup) {
+    constexpr float kTrace = 1e-3F;  // a sheet may pass between the voxels' centres
+    for (std::size_t t = 0; t < candidates.kept.size(); ++t)
+      if (candidates.kept[t]) candidates.density[t] = std::max(candidates.density[t], kTrace);
+  } else if (options_.thin == Thin::Keep) {
+    keep_cover(candidates);
+  }
+  if (options_.separate == Separate::Apart && !fill.by_soup) {
+    if (options_.thin == Thin::Keep) trim_slivers(candidates, options_.rho_min, body_, watch_);
+    const double rho_min = options_.thin == Thin::Keep ? 0 : options_.rho_min;
+    const Separated apart = separate(candidates, body_, rho_min, watch_);
+    fill.mended.doubled_tets = apart.tets;
+    fill.mended.parted_vertices = apart.vertices;
+  }
+  if (options_.thin == Thin::Keep)
+    fill.mended.thin_tets =
+        carve(candidates, fill.by_soup ? kNoneDense : options_.rho_min, body_, fill.mended.topology, watch_);
 }
 
 /// Mends what density leaves, step by step; each changes which candidates are kept, or the candidates, and notes in
@@ -129,21 +143,19 @@ Fill Filler::fill(const Pose& pose, Crumbs crumbs) {
 void Filler::mend(Fill& fill) {
   Candidates& candidates = fill.candidates;
   LatticeReport& report = fill.mended;
-  if (options_.cover == Cover::Inside && !fill.by_soup) keep_inside_tets(candidates);
-  if (options_.stairs == Stairs::Even && options_.cover != Cover::Inside && !fill.by_soup)
-    report.evened_tets = even_out(candidates, options_.rho_min);
-  if (options_.thin == Thin::Keep && !candidates.passed.empty())
-    report.thin_tets = keep_thin_parts(candidates, volume_.inside, *passed_, watch_);
+  if (options_.cover == Cover::Inside && !fill.by_soup) {
+    keep_inside_tets(candidates);
+  } else {
+    carve_cover(fill);
+    if (options_.stairs == Stairs::Even && !fill.by_soup) report.evened_tets = even_out(candidates, options_.rho_min);
+  }
   if (options_.cover == Cover::Enclose)
     report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
-  if (options_.separate == Separate::Apart && !fill.by_soup) {
-    const Separated apart = separate(candidates, volume_.inside, options_.rho_min, watch_);
-    report.doubled_tets = apart.tets;
-    report.parted_vertices = apart.vertices;
-  }
   TopologyOptions topology = options_.topology;
   if (options_.cover == Cover::Enclose) topology.min_part = 0;  // or what was enclosed would be dropped
+  const TopologyReport cover = report.topology;
   report.topology = clean_topology(candidates, topology, watch_);
+  report.topology.vertices_doubled += cover.vertices_doubled;
   if (options_.cover == Cover::Enclose) report.enclosing_tets += enclose_apart(candidates, soup_.soup.vertices, watch_);
 }
 

@@ -15,8 +15,7 @@ struct Fill {
   LatticeFrame frame;
   Candidates candidates;
   bool by_soup = false;        ///< The tets that the soup passes through were kept.
-  bool crumbs = false;         ///< What density left does not hold together, and nothing was kept instead yet.
-  std::size_t dense_tets = 0;  ///< Kept by density or by the soup, before anything was mended.
+  std::size_t dense_tets = 0;  ///< Those that density alone would keep, or of the cover of a sheet.
   std::size_t sampled_tets = 0;
   LatticeReport mended;  ///< What the steps after density did; the other fields are not filled.
 
@@ -35,12 +34,8 @@ class Filler {
   /// All must outlive this.
   Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options, StageWatch& watch);
 
-  enum class Crumbs { BySoup, Report };
-  /// What is dense enough, or what the soup passes through if that is a sheet or crumbs; then cover, separation and
-  /// clean-up.
-  Fill fill(const Pose& pose, Crumbs crumbs = Crumbs::BySoup);
-  /// From now on the tets that the soup passes through, whatever the densities: a search must not jump back and forth.
-  void stay_with_soup() { has_volume_ = false; }
+  /// The cover of the body, or what the soup passes through if that is a sheet; carved, then cover and clean-up.
+  Fill fill(const Pose& pose);
 
   Shares shares(const TetMesh& mesh) const;
   int fills() const { return fills_; }
@@ -53,6 +48,9 @@ class Filler {
   void check_cell(double cell_size) const;
 
  private:
+  bool find_volume() const;
+  BitGrid find_body() const;
+  void carve_cover(Fill& fill);
   void mend(Fill& fill);
 
   const PseudoVolume& volume_;
@@ -61,10 +59,9 @@ class Filler {
   StageWatch& watch_;
   const GridFrame& grid_;
   const LatticeTable& table_;
-  InsideBlocks inside_;
-  std::optional<BitGrid> passed_;  ///< Voxels that the soup passes through as well, if anything asks for them.
-  std::optional<InsideBlocks> passed_blocks_;
-  bool has_volume_ = true;
+  bool has_volume_;
+  BitGrid body_;  ///< What is to be covered.
+  InsideBlocks blocks_;
   int fills_ = 0;
 };
 

@@ -30,12 +30,8 @@ struct CandidateTet {
   Cell cell;
   std::uint8_t tet;
   std::uint8_t kept;
-  float density, passed;
+  float density;
 };
-
-const std::vector<float>& reached(const FilledCells& filled) {
-  return filled.passed.empty() ? filled.densities : filled.passed;
-}
 
 /// Tets of which a corner is marked, in lattice order. Every filled cell has one.
 std::vector<CandidateTet> tets_beside(const LatticeVertices& marked, const FilledCells& filled,
@@ -52,9 +48,8 @@ std::vector<CandidateTet> tets_beside(const LatticeVertices& marked, const Fille
                                             [&](const LatticeCorner& c) { return marked.is_marked(cell, c); });
       if (!is_candidate) continue;
       const float density = is_filled ? filled.densities[next * table.tet_count + t] : 0.0F;
-      const float passed = is_filled ? reached(filled)[next * table.tet_count + t] : 0.0F;
       const unsigned kept = is_filled ? filled.cells[next].kept >> t & 1U : 0;
-      tets.push_back({cell, static_cast<std::uint8_t>(t), static_cast<std::uint8_t>(kept), density, passed});
+      tets.push_back({cell, static_cast<std::uint8_t>(t), static_cast<std::uint8_t>(kept), density});
     }
     next += is_filled;
   });
@@ -70,7 +65,7 @@ Candidates gather_candidates(const FilledCells& filled, const LatticeFrame& fram
   for (std::size_t c = 0; c < filled.cells.size(); ++c) {
     const auto& [cell, kept] = filled.cells[c];
     for (std::size_t t = 0; t < table.tet_count; ++t)
-      if (reached(filled)[c * table.tet_count + t] > 0 || (kept >> t & 1U) != 0)
+      if (filled.densities[c * table.tet_count + t] > 0 || (kept >> t & 1U) != 0)
         for (const LatticeCorner& corner : table.tet(t, is_odd(cell))) core.mark(cell, corner);
   }
   const std::vector<CandidateTet> tets = tets_beside(core, filled, table);
@@ -95,7 +90,6 @@ Candidates gather_candidates(const FilledCells& filled, const LatticeFrame& fram
                                     vertices.number(t.cell, corners[2]), vertices.number(t.cell, corners[3])});
     candidates.density.push_back(t.density);
     candidates.kept.push_back(t.kept);
-    if (!filled.passed.empty()) candidates.passed.push_back(t.passed);
   }
   return candidates;
 }

@@ -20,6 +20,7 @@ constexpr double kLeastBridge = 0.15;  ///< Mean density of a bridge; through a 
 // To double a vertex changes no volume, but what hung together by it no longer does. In mean tets of the star:
 constexpr double kDoubleSamePart = 0.5;   ///< The tets are also joined elsewhere;
 constexpr double kDoubleOtherPart = 4.0;  ///< they are not: limbs thinner than a tet are strung together like this.
+constexpr double kDoubleCover = 10;       ///< Times as much in a cover: what it touches it belongs to.
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWatchEvery = 256;  ///< Repairs between two looks at the watch.
@@ -77,7 +78,8 @@ double Mender::cost_to_flip(std::uint32_t t) const {
   if (!complex_.is_kept(t)) {
     return ways_ != Ways::PartingOnly && complex_.is_addable(t) ? (1 - inside) * volume : kInfinity;
   }
-  if (ways_ == Ways::JoiningOnly || (ways_ == Ways::All && complex_.is_held(t))) return kInfinity;
+  if (ways_ == Ways::Covering || ways_ == Ways::JoiningOnly || (ways_ == Ways::All && complex_.is_held(t)))
+    return kInfinity;
   return complex_.is_held(t) ? kHeldWeight * volume : kDropWeight * inside * volume;
 }
 
@@ -95,7 +97,7 @@ void Mender::flip(const std::vector<std::uint32_t>& tets) {
 
 /// Whether the tets would bridge a clear gap, though the vertex can be doubled instead.
 bool Mender::is_thin_air(const std::vector<std::uint32_t>& tets) const {
-  if (!can_double_ || complex_.is_kept(tets[0])) return false;
+  if (ways_ == Ways::Covering || !can_double_ || complex_.is_kept(tets[0])) return false;
   double inside = 0, volume = 0;
   for (const std::uint32_t t : tets) {
     inside += complex_.density(t) * complex_.volume(t);
@@ -106,7 +108,7 @@ bool Mender::is_thin_air(const std::vector<std::uint32_t>& tets) const {
 
 /// By the vertices it mends. Where not all ways are open, what mends none may have to do.
 double Mender::score(double cost, double mended) const {
-  if (ways_ != Ways::All) return cost - mended * mean_volume_;
+  if (ways_ == Ways::JoiningOnly || ways_ == Ways::PartingOnly) return cost - mended * mean_volume_;
   return mended > 0 ? cost / mended : kInfinity;
 }
 
@@ -199,6 +201,7 @@ bool Mender::mend(std::uint32_t v, Ways ways) {
   mean_volume_ /= static_cast<double>(star.size());
   can_double_ = star.kept_pieces() > 1;
   parting_ = can_double_ ? cost_to_part(star) : 0;
+  if (ways == Ways::Covering) parting_ *= kDoubleCover;
   if (can_double_) consider_doubling(star, v);
   consider_flips(star, v);
   if (!std::isfinite(best_.score)) return false;
@@ -274,11 +277,13 @@ void mend_touching(TetComplex& complex, Ways ways, TopologyReport& report, Stage
   if (bad.empty()) return;
   report.touching_mended += count_places(complex, bad);
   Mender mender(complex, std::move(is_bad), report);
-  if (ways == Ways::All) bad = mend_all(mender, std::move(bad), Ways::All, watch);
-  std::vector<std::uint32_t> at_held;
-  if (ways == Ways::All)
-    std::copy_if(bad.begin(), bad.end(), std::back_inserter(at_held), [&](auto v) { return has_held(complex, v); });
-  const auto left = mend_all(mender, std::move(at_held), Ways::JoiningOnly, watch);
+  std::vector<std::uint32_t> to_join;
+  if (ways != Ways::PartingOnly) {
+    bad = mend_all(mender, std::move(bad), ways, watch);
+    std::copy_if(bad.begin(), bad.end(), std::back_inserter(to_join),
+                 [&](auto v) { return ways == Ways::Covering || has_held(complex, v); });
+  }
+  const auto left = mend_all(mender, std::move(to_join), Ways::JoiningOnly, watch);
   bad.insert(bad.end(), left.begin(), left.end());
   bad = mend_all(mender, std::move(bad), Ways::PartingOnly, watch);
   TETSOUP_ASSERT(bad.empty() && find_bad(complex, is_bad).empty());

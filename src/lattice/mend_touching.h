@@ -9,6 +9,7 @@ namespace tetsoup {
 
 enum class Ways {
   All,          ///< Tets are added, dropped, or given vertices of their own, whichever is cheapest.
+  Covering,     ///< Tets are added; vertices are doubled only where nothing else helps.
   JoiningOnly,  ///< Nothing is dropped.
   PartingOnly,  ///< Nothing is added.
 };

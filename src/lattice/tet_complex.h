@@ -25,6 +25,7 @@ class TetComplex {
 
   std::uint32_t tet_count() const { return static_cast<std::uint32_t>(neighbours_.size()); }
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(around_.size()); }
+  const TetMesh& mesh() const { return candidates_.mesh; }
   const Tet& corners(std::uint32_t t) const { return candidates_.mesh.tets[t]; }
   float density(std::uint32_t t) const { return candidates_.density[t]; }
   double volume(std::uint32_t t) const;

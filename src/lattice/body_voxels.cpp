@@ -1,10 +1,11 @@
-#include "lattice/passed_voxels.h"
+#include "lattice/body_voxels.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "base/bits.h"
 #include "base/vec.h"
 #include "base/whole.h"
 
@@ -33,12 +34,12 @@ void draw_triangle(BitGrid& grid, const std::array<Vec3d, 3>& p) {
 
 }  // namespace
 
-BitGrid passed_voxels(const BitGrid& inside, const CleanSoup& soup, StageWatch& watch) {
-  BitGrid grid = inside;
+BitGrid soup_voxels(const GridFrame& frame, const CleanSoup& soup, StageWatch& watch) {
+  BitGrid grid = make_bit_grid(frame);
   std::vector<Vec3d> points;
   points.reserve(soup.soup.vertices.size());
   for (const Vec3& v : soup.soup.vertices) {
-    points.push_back((to_double(v) - grid.frame.origin) * (1 / grid.frame.voxel_size) + Vec3d{0.5, 0.5, 0.5});
+    points.push_back((to_double(v) - frame.origin) * (1 / frame.voxel_size) + Vec3d{0.5, 0.5, 0.5});
     set_voxel(grid, points.back());
   }
   std::size_t done = 0;
@@ -50,23 +51,26 @@ BitGrid passed_voxels(const BitGrid& inside, const CleanSoup& soup, StageWatch& 
   return grid;
 }
 
-void add_passed(const FilledCells& passed, std::size_t tets_per_cell, FilledCells& filled) {
-  FilledCells all;
-  all.cells = passed.cells;
-  all.passed = passed.densities;
-  all.densities.assign(passed.densities.size(), 0);
-  all.kept_tets = filled.kept_tets;
-  all.sampled_tets = filled.sampled_tets;
-  std::size_t next = 0;
-  for (std::size_t c = 0; c < all.cells.size(); ++c) {
-    all.cells[c].kept = 0;
-    if (next == filled.cells.size() || filled.cells[next].cell != all.cells[c].cell) continue;
-    all.cells[c].kept = filled.cells[next].kept;
-    std::copy_n(filled.densities.begin() + static_cast<std::ptrdiff_t>(next * tets_per_cell), tets_per_cell,
-                all.densities.begin() + static_cast<std::ptrdiff_t>(c * tets_per_cell));
-    ++next;
-  }
-  filled = std::move(all);
+BitGrid body_voxels(const BitGrid& inside, const CleanSoup& soup, StageWatch& watch) {
+  const BitGrid surface = soup_voxels(inside.frame, soup, watch);
+  const auto& size = inside.frame.size;
+  /// Adds to every word of the grid the voxels of the surface that body(y, z, word) names.
+  const auto add_surface = [&](BitGrid& grid, const auto& where) {
+    parallel_for(size[2], 1, watch, [&](std::int64_t layer, std::int64_t) {
+      const int z = static_cast<int>(layer);
+      for (int y = 0; y < size[1]; ++y) {
+        const std::size_t row = inside.row(y, z);
+        for (std::size_t w = 0; w < inside.words_per_row; ++w)
+          if (surface.words[row + w] != 0) grid.words[row + w] |= surface.words[row + w] & where(y, z, w);
+      }
+    });
+  };
+  BitGrid bare = make_bit_grid(inside.frame), body = inside;
+  const BitRows inside_rows(inside), bare_rows(bare);
+  add_surface(bare, [&](int y, int z, std::size_t w) { return ~inside_rows.grown(y, z, w); });
+  // With those around, so that what is bare hangs together with the volume beside it.
+  add_surface(body, [&](int y, int z, std::size_t w) { return bare_rows.grown(y, z, w); });
+  return body;
 }
 
 }  // namespace tetsoup

@@ -1,0 +1,67 @@
+// Carving: the cover of a body becomes the mesh, and neither pieces nor tunnels nor thin parts are lost on the way.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lattice_shapes.h"
+#include "shapes.h"
+#include "solid_candidates.h"
+#include "stages.h"
+#include "tetsoup/lattice.h"
+#include "tetsoup/quality.h"
+#include "tetsoup/samples.h"
+
+namespace tetsoup {
+namespace {
+
+using test::classify;
+using test::euler_characteristic;
+using test::fill;
+using test::Stages;
+
+/// A box, turned about all axes so that no side lies along the lattice.
+TriangleSoup turned_box(const Vec3d& half) {
+  TriangleSoup soup = test::make_box(half * -1, half);
+  for (Vec3& v : soup.vertices) {
+    const Vec3d p = to_double(v);
+    const Vec3d q{0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z};
+    v = to_float({q.x, 0.8 * q.y - 0.6 * q.z, 0.6 * q.y + 0.8 * q.z});
+  }
+  return soup;
+}
+
+TEST(Carve, a_plate_a_tenth_of_a_tet_thick_is_one_layer_without_a_hole) {
+  const Stages s = classify(turned_box({1, 1, 0.015}), 200);
+  LatticeOptions options;
+  for (const std::size_t tets : {300, 1000}) {
+    options.tets = tets;
+    const LatticeMesh plate = fill(s, options);
+    EXPECT_EQ(euler_characteristic(plate.mesh), 1) << tets;
+    EXPECT_EQ(measure_quality(plate.mesh).components, 1U);
+    EXPECT_LT(plate.report.kept_volume, 4 * 1.0 * plate.report.mean_edge) << "no more than an edge thick";
+  }
+}
+
+TEST(Carve, a_rod_a_tenth_of_a_tet_thick_is_one_string_to_its_ends) {
+  const Stages s = classify(turned_box({1, 0.012, 0.012}), 300);
+  LatticeOptions options;
+  options.tets = 150;
+  const LatticeMesh rod = fill(s, options);
+  EXPECT_EQ(euler_characteristic(rod.mesh), 1);
+  for (const double end : {-1.0, 1.0}) {
+    const Vec3d tip = Vec3d{0.8, 0.48, 0.36} * end;
+    double nearest = 1e300;
+    for (const Vec3& v : rod.mesh.vertices) nearest = std::min(nearest, length(to_double(v) - tip));
+    EXPECT_LT(nearest, rod.report.mean_edge);
+  }
+}
+
+TEST(Carve, a_thin_ring_keeps_its_hole) {
+  const Stages s = classify(make_sample("torus"), 128);
+  LatticeOptions options;
+  options.tets = 150;
+  EXPECT_EQ(euler_characteristic(fill(s, options).mesh), 0);
+}
+
+}  // namespace
+}  // namespace tetsoup
