@@ -91,7 +91,11 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
       {{"auto", Cavities::Auto}, {"fill", Cavities::Fill}, {"keep", Cavities::Keep}},
       "Enclosed space: hollow where closed shells turn their outside\nto it, else filled; filled; hollow where rays "
       "call it outside (auto)");
-  for (CLI::Option* const option : {k, voxels, band, rays, placement, cavities}) option->group(kVolumeGroup);
+  CLI::Option* const thickness = add_flag(
+      app, "--thickness", "T",
+      [&options](const std::string& text) { options.thickness = parse_number("--thickness", text, kPositive); },
+      "Thickness of sheets, and of nothing else, in the model's unit");
+  for (CLI::Option* const option : {k, voxels, band, rays, placement, cavities, thickness}) option->group(kVolumeGroup);
 }
 
 namespace {

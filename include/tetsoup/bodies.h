@@ -42,6 +42,7 @@ struct BodySize {
   double longest = 0;  ///< Side of its box.
   double volume = 0;   ///< Enclosed, where windings or closedness tell; else a guess from the box.
   double area = 0;
+  bool rims = false;                ///< Some part of it is open.
   std::optional<double> wall, gap;  ///< The thinnest wall and the narrowest gap that take a share of the area.
 };
 

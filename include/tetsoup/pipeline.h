@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tetsoup/bodies.h"
@@ -66,6 +67,9 @@ class Pipeline {
   const LatticeMesh& lattice() const;  ///< Of all bodies, one after the other.
   const SmoothResult& smooth() const;
   std::size_t body_count() const { return bodies_.size(); }
+  /// What was made of the soup's parts, for the user: bodies apart, specks left out, shares of the budget, walls that
+  /// are too thin for any grid.
+  std::vector<std::string> body_notes() const;
   /// The grid of the whole soup.
   const GridFrame& grid() const { return grid_; }
   /// The distance to all of the soup on that grid. The mesher measures only what it needs, near parts that are open:
@@ -99,6 +103,8 @@ class Pipeline {
   void fill_lattices(const Progress& progress);
   void smooth_all(const Progress& progress);
   LatticeMesh lattice_of(Body& body, std::size_t tets, const Progress& progress);
+  void note_thin_walls(std::vector<std::string>& notes) const;
+  Vec3d place_of(std::uint32_t triangle) const;
   void measure_distance(const Progress& progress) const;
 
   CleanSoup soup_;

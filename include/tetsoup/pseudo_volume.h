@@ -42,6 +42,7 @@ struct PseudoVolumeOptions {
   int rays = 26;                      ///< 26: both ways along 13 axes; 13: one way.
   Placement placement = Placement::Closest;
   Cavities cavities = Cavities::Auto;
+  std::optional<double> thickness;  ///< Of sheets: what lies within half of it on either side is inside.
   bool operator==(const PseudoVolumeOptions&) const = default;
 };
 
@@ -63,6 +64,7 @@ struct PseudoVolumeReport {
   std::optional<double> wants_band_voxels;
   std::size_t cavity_voxels = 0;     ///< Voxels that were added because the soup encloses them.
   std::vector<SoupCavity> cavities;  ///< What was left hollow by evidence.
+  double sheet_share = 0;            ///< Of the soup's area: open parts that enclose nothing. Known with a thickness.
   double exact_share =
       0;  ///< Of the soup's triangles, those of sound parts: there the sign is that of exact crossings.
   /// Diameter of the largest hole that was closed: twice the largest distance between the soup and the surface of the

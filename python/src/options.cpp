@@ -37,6 +37,7 @@ const std::vector<Option>& all_options() {
       option<kVolume, &PseudoVolumeOptions::rays>("pseudo_volume", "rays"),
       option<kVolume, &PseudoVolumeOptions::placement>("pseudo_volume", "placement"),
       option<kVolume, &PseudoVolumeOptions::cavities>("pseudo_volume", "cavities"),
+      option<kVolume, &PseudoVolumeOptions::thickness>("pseudo_volume", "thickness"),
       option<kLattice, &LatticeOptions::tets>("lattice", "tets"),
       option<kLattice, &LatticeOptions::vertices>("lattice", "mesh_vertices"),
       option<kLattice, &LatticeOptions::edge>("lattice", "edge"),

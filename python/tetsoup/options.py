@@ -49,6 +49,7 @@ class PseudoVolumeOptions(TypedDict, total=False):
         Literal["auto", "fill", "keep"],
         "enclosed space: hollow where closed shells turn their outside to it; solid; hollow where rays say so",
     ]
+    thickness: Annotated[float | None, "of sheets, and of nothing else"]
 
 
 class LatticeOptions(TypedDict, total=False):

@@ -110,6 +110,7 @@ std::vector<BodySize> measure_bodies(const CleanSoup& soup, const Bodies& bodies
     const Vec3d e = box.hi - box.lo;
     sizes[b].longest = std::max({e.x, e.y, e.z});
     sizes[b].volume = volume_of(soup, in_body, box);
+    sizes[b].rims = rims[b] > 0;
     if (spaces.samples.empty()) continue;
     const ThinSpaces own = count == 1 ? spaces : of_body(spaces, body_of, b, sizes[b].area);
     const bool loose = static_cast<double>(rims[b]) > kLooseRims * static_cast<double>(bodies.triangles[b].size());

@@ -1,5 +1,6 @@
 #include "tetsoup/pipeline.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +18,8 @@ namespace tetsoup {
 namespace {
 
 constexpr std::size_t kDefaultTets = 2000;  ///< As the lattice's own.
+constexpr double kVoxelsToThickness = 2.5;  ///< Of sheets with a thickness.
+constexpr double kMostVoxels = 400;         ///< That a body may ask for along its longest side.
 constexpr std::size_t kFewestTets = 5;      ///< Of a lattice: a cube. Bodies that may have fewer are one tet.
 
 class Stopwatch {
@@ -111,7 +114,8 @@ const SmoothResult& Pipeline::run(const MeshOptions& options, const Progress& pr
 void Pipeline::forget_changed(const MeshOptions& options) {
   const auto shares_budget = [](const MeshOptions& o) { return o.lattice.tets.value_or(0); };
   if (options.join != options_.join) split_.reset();
-  if (!split_ || !(options.distance == options_.distance)) {
+  if (!split_ || !(options.distance == options_.distance) ||
+      options.pseudo_volume.thickness != options_.pseudo_volume.thickness) {
     gridded_ = false;
     distance_.reset();
   }
@@ -179,6 +183,10 @@ void Pipeline::choose_grids(const Progress& progress) {
     (whole_ ? soup_ : body.own_soup).parts.near = split_->near[b];
     body.distance = options_.distance;
     if (!fixed && body.size.longest > 0) body.distance.voxel_size = wanted_voxel_size(body.size, body.tets, count == 1);
+    if (!fixed && options_.pseudo_volume.thickness && body.size.rims)
+      body.distance.voxel_size =
+          std::max(std::min(*body.distance.voxel_size, *options_.pseudo_volume.thickness / kVoxelsToThickness),
+                   body.size.longest / kMostVoxels);
     if (options_.distance.voxels && count > 1) {
       body.distance.voxels.reset();
       body.distance.voxel_size = make_grid(soup_, options_.distance).voxel_size;
@@ -271,6 +279,59 @@ void Pipeline::smooth_all(const Progress& progress) {
     results.push_back(&*body.smooth);
   }
   if (bodies_.size() > 1) smooth_ = united_smooth(results);
+}
+
+std::vector<std::string> Pipeline::body_notes() const {
+  std::vector<std::string> notes;
+  const auto text = [](const char* format, auto... values) {
+    std::array<char, 400> line{};
+    std::snprintf(line.data(), line.size(), format, values...);
+    return std::string(line.data());
+  };
+  const std::size_t count = bodies_.size();
+  if (count > 1)
+    notes.push_back(
+        text("The model is %zu bodies that do not touch, each with a grid and a lattice of its own: --join "
+             "near puts them on one grid, --join all glues what shares a cell.",
+             count));
+  if (!split_->specks.empty())
+    notes.push_back(
+        text("%zu triangles far too small to be a body beside the others were left out, the first near "
+             "(%.6g, %.6g, %.6g).",
+             split_->specks.size(), place_of(split_->specks.front()).x, place_of(split_->specks.front()).y,
+             place_of(split_->specks.front()).z));
+  std::size_t single = 0, lost = 0;
+  for (const Body& body : bodies_) {
+    single += body.lattice && count > 1 && body.lattice->mesh.tets.size() == 1;
+    lost += !body.lattice;
+  }
+  if (single + lost > 0 && latticed_)
+    notes.push_back(
+        text("There are too few tets for so many bodies: %zu are a single tet each, %zu are lost. --tets %zu "
+             "gives each a dozen.",
+             single, lost, count * 12));
+  note_thin_walls(notes);
+  return notes;
+}
+
+/// Walls and gaps that a voxel of the grid cannot tell.
+void Pipeline::note_thin_walls(std::vector<std::string>& notes) const {
+  for (const Body& body : bodies_) {
+    for (const auto& [what, width] : {std::pair{"wall", body.size.wall}, std::pair{"gap", body.size.gap}}) {
+      if (!width || *width >= body.grid.voxel_size) continue;
+      std::array<char, 300> line{};
+      std::snprintf(line.data(), line.size(),
+                    "The thinnest %s is %.4g wide, %.2g of a voxel: --voxels %d shows it (it costs time and memory).",
+                    what, *width, *width / body.grid.voxel_size,
+                    static_cast<int>(std::min(4096.0, std::ceil(1.7 * body.size.longest / *width))));
+      notes.emplace_back(line.data());
+      return;
+    }
+  }
+}
+
+Vec3d Pipeline::place_of(std::uint32_t triangle) const {
+  return to_double(soup_.soup.vertices[soup_.soup.triangles[triangle][0]]);
 }
 
 void Pipeline::measure_distance(const Progress& progress) const {

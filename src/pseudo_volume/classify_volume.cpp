@@ -166,6 +166,7 @@ void check_options(const PseudoVolumeOptions& options) {
   const auto is_length = [](const std::optional<double>& v) { return !v || (*v > 0 && std::isfinite(*v)); };
   require(is_length(options.band), "band", options.band.value_or(0), "positive and finite");
   require(is_length(options.band_voxels), "band_voxels", options.band_voxels.value_or(0), "positive and finite");
+  require(is_length(options.thickness), "thickness", options.thickness.value_or(0), "positive and finite");
   require(options.rays == 26 || options.rays == 13, "rays", options.rays, "26 or 13");
 }
 

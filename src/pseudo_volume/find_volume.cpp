@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "base/bits.h"
 #include "base/unions.h"
@@ -18,8 +21,16 @@ namespace {
 
 /// Of the triangles; soups with more rims than this are loose, and no crossing of theirs says anything.
 constexpr double kMostRims = 0.25;
+/// Of the inside: less filled space is not worth a word.
+constexpr double kToldCavity = 0.02;
 /// Of the score: holes that a wider band closes raise it by more, noise by less.
 constexpr double kLeastGain = 1.1;
+
+std::string to_text(double number) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", number);
+  return text.data();
+}
 
 struct Split {
   std::vector<std::uint32_t> sound, unsound;  ///< Triangles.
@@ -121,6 +132,70 @@ PseudoVolume vote(const CleanSoup& soup, const GridFrame& frame, const PseudoVol
   return volume;
 }
 
+/// Share of the surface that has an inside voxel beside it, by the middles of some thousand triangles.
+class CoveredArea {
+ public:
+  explicit CoveredArea(const BitGrid& inside) : frame_(inside.frame), rows_(inside) {}
+
+  void add(const TriangleSoup& soup, const Triangle& t) {
+    const Vec3d a = to_double(soup.vertices[t[0]]), b = to_double(soup.vertices[t[1]]),
+                c = to_double(soup.vertices[t[2]]);
+    const double area = length(cross(b - a, c - a));
+    const Vec3d at = ((a + b + c) * (1.0 / 3) - frame_.origin) * (1 / frame_.voxel_size);
+    const int x = static_cast<int>(std::lround(at.x));
+    const std::uint64_t near = rows_.grown(static_cast<int>(std::lround(at.y)), static_cast<int>(std::lround(at.z)),
+                                           static_cast<std::size_t>(x / 64));
+    all_ += area;
+    covered_ += (near >> (x % 64) & 1U) != 0 ? area : 0;
+  }
+  double area() const { return all_; }
+  double share() const { return all_ > 0 ? covered_ / all_ : 1; }
+
+ private:
+  const GridFrame& frame_;
+  BitRows rows_;
+  double all_ = 0, covered_ = 0;
+};
+
+double covered_share(const TriangleSoup& soup, const BitGrid& inside) {
+  constexpr std::size_t kSamples = 4096;
+  const std::size_t step = soup.triangles.size() / kSamples + 1;
+  CoveredArea covered(inside);
+  for (std::size_t i = 0; i < soup.triangles.size(); i += step) covered.add(soup, soup.triangles[i]);
+  return covered.share();
+}
+
+/// The triangles of open parts of which less than half has an inside voxel beside it: they enclose nothing.
+std::vector<std::uint32_t> find_sheets(const CleanSoup& soup, PseudoVolume& volume) {
+  std::vector<CoveredArea> covered(soup.parts.parts.size(), CoveredArea(volume.inside));
+  for (std::size_t t = 0; t < soup.soup.triangles.size(); ++t)
+    covered[soup.parts.part_of_triangle[t]].add(soup.soup, soup.soup.triangles[t]);
+  double all = 0, sheets = 0;
+  for (std::size_t p = 0; p < covered.size(); ++p) {
+    all += covered[p].area();
+    if (!soup.parts.parts[p].sound && covered[p].share() < 0.5) sheets += covered[p].area();
+  }
+  volume.report.sheet_share = all > 0 ? sheets / all : 0;
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t t = 0; t < soup.soup.triangles.size(); ++t) {
+    const std::uint32_t p = soup.parts.part_of_triangle[t];
+    if (!soup.parts.parts[p].sound && covered[p].share() < 0.5) triangles.push_back(t);
+  }
+  return triangles;
+}
+
+/// What lies within half the thickness of a sheet is inside.
+void thicken_sheets(const CleanSoup& soup, double thickness, PseudoVolume& volume, const Progress& progress) {
+  const std::vector<std::uint32_t> sheets = find_sheets(soup, volume);
+  if (sheets.empty()) return;
+  StageWatch watch(progress, "pseudo_volume");
+  const GridFrame& frame = volume.inside.frame;
+  const double half = thickness / 2, band = std::max(half / frame.voxel_size + 1, kLeastBandVoxels);
+  const DistanceField field = unsigned_distance(subset_of(soup, sheets), frame, band, progress);
+  add_bits(volume.inside, find_band(field.distance, static_cast<float>(half), watch).bits);
+  volume.report.soup_covered = covered_share(soup.soup, volume.inside);
+}
+
 /// All rays agree.
 VoteGrid votes_for(const BitGrid& inside, int rays) {
   VoteGrid votes;
@@ -131,27 +206,6 @@ VoteGrid votes_for(const BitGrid& inside, int rays) {
     for (std::size_t slice = 0; slice < votes.words[i].slices.size(); ++slice)
       votes.words[i].slices[slice] |= (rays >> slice & 1) != 0 ? inside.words[i] : 0;
   return votes;
-}
-
-/// Share of the surface that has an inside voxel beside it, by the middles of some thousand triangles.
-double covered_share(const TriangleSoup& soup, const BitGrid& inside) {
-  constexpr std::size_t kSamples = 4096;
-  const GridFrame& frame = inside.frame;
-  const BitRows rows(inside);
-  const std::size_t step = soup.triangles.size() / kSamples + 1;
-  double all = 0, covered = 0;
-  for (std::size_t i = 0; i < soup.triangles.size(); i += step) {
-    const auto [a, b, c] = soup.triangles[i];
-    const Vec3d pa = to_double(soup.vertices[a]), pb = to_double(soup.vertices[b]), pc = to_double(soup.vertices[c]);
-    const double area = length(cross(pb - pa, pc - pa));
-    const Vec3d at = ((pa + pb + pc) * (1.0 / 3) - frame.origin) * (1 / frame.voxel_size);
-    const int x = static_cast<int>(std::lround(at.x));
-    const std::uint64_t near = rows.grown(static_cast<int>(std::lround(at.y)), static_cast<int>(std::lround(at.z)),
-                                          static_cast<std::size_t>(x / 64));
-    all += area;
-    covered += (near >> (x % 64) & 1U) != 0 ? area : 0;
-  }
-  return all > 0 ? covered / all : 1;
 }
 
 /// A volume of sound parts alone: nothing was voted on.
@@ -172,6 +226,22 @@ PseudoVolume agreed(const CleanSoup& soup, Solids solids, const PseudoVolumeOpti
   report.consensus = 1;
   report.soup_covered = covered_share(soup.soup, volume.inside);
   return volume;
+}
+
+/// What was left hollow, or filled, and how to get the other.
+void note_cavities(const PseudoVolumeOptions& options, PseudoVolumeReport& report) {
+  double hollow = 0;
+  for (const SoupCavity& cavity : report.cavities) hollow += cavity.volume;
+  const std::size_t count = report.cavities.size();
+  if (count > 0)
+    report.notes.push_back((count == 1 ? "A closed space was" : std::to_string(count) + " closed spaces were") +
+                           " left hollow (volume " + to_text(hollow) +
+                           "), since shells turn their outside to it: --cavities fill makes the body solid.");
+  if (options.cavities == Cavities::Auto && report.cavity_voxels > 0 &&
+      static_cast<double>(report.cavity_voxels) > kToldCavity * static_cast<double>(report.inside_voxels))
+    report.notes.push_back(
+        "Space that the surface encloses was filled, since nothing says that it is hollow: "
+        "--cavities keep leaves hollow what the rays call outside.");
 }
 
 }  // namespace
@@ -200,8 +270,10 @@ PseudoVolume find_volume(const CleanSoup& soup, const GridFrame& frame, const Ps
       volume.inside.words[i] &=
           ~(solids.hollow.words[i] & ~votes_above(volume.votes.words[i], static_cast<unsigned>(options.rays) / 2));
   }
+  if (options.thickness) thicken_sheets(soup, *options.thickness, volume, progress);
   PseudoVolumeReport& report = volume.report;
   report.cavities = cavities;
+  note_cavities(options, report);
   report.exact_share =
       static_cast<double>(split.sound.size()) / static_cast<double>(split.sound.size() + split.unsound.size());
   report.inside_voxels = count_voxels(volume.inside);

@@ -105,6 +105,7 @@ std::vector<std::string> notes_of(const Findings& found) {
   const Pipeline& pipeline = found.pipeline;
   Notes notes = pipeline.soup().report.notes;
   append(notes, grid_notes(pipeline.soup(), pipeline.options().distance, pipeline.grid()));
+  append(notes, pipeline.body_notes());
   append(notes, pipeline.pseudo_volume().report.notes);
   note_lattice(found, notes);
   append(notes, pipeline.lattice().report.notes);

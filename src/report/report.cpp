@@ -158,6 +158,7 @@ std::string to_json(const PseudoVolumeReport& report) {
                   {"floored", report.floored},
                   {"largest_closure", report.largest_closure},
                   {"inside_voxels", report.inside_voxels},
+                  {"sheet_share", report.sheet_share},
                   {"exact_share", report.exact_share},
                   {"cavities_kept", report.cavities.size()},
                   {"cavity_voxels", report.cavity_voxels},
@@ -226,6 +227,7 @@ std::string to_json(const MeshOptions& options) {
                   {"cavities", volume.cavities == Cavities::Auto   ? "auto"
                                : volume.cavities == Cavities::Fill ? "fill"
                                                                    : "keep"},
+                  {"thickness", optional_json(volume.thickness)},
                   {"join", options.join == Join::Touching ? "touching"
                            : options.join == Join::Near   ? "near"
                                                           : "all"},

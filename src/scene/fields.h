@@ -73,6 +73,7 @@ void visit_fields(Visitor& v, PseudoVolumeOptions& o) {
   v("rays", o.rays, Words{Word<int>{"26", 26}, Word<int>{"13", 13}});
   v("placement", o.placement,
     Words{Word<Placement>{"closest", Placement::Closest}, Word<Placement>{"entry", Placement::Entry}});
+  v("thickness", o.thickness, kLengthRange);
   v("cavities", o.cavities,
     Words{Word<Cavities>{"auto", Cavities::Auto}, Word<Cavities>{"fill", Cavities::Fill},
           Word<Cavities>{"keep", Cavities::Keep}});
