@@ -73,6 +73,16 @@ TEST(Notes, an_engine_that_reads_metres_is_told_of_a_giant) {
   EXPECT_TRUE(any_names(notes_on(pipeline, small(), "mujoco"), "--metres-per-unit"));
 }
 
+TEST(TetCount, is_the_smallest_at_which_the_shape_holds) {
+  MeshOptions options;
+  options.distance.voxels = 64;
+  Pipeline ball(make_sample("sphere"));
+  const CountSearch few = find_tet_count(ball, options);
+  EXPECT_TRUE(few.held);
+  EXPECT_EQ(few.tets, 500U);
+  EXPECT_EQ(ball.options().lattice.tets, 500U);
+}
+
 class NotesOfTheTool : public test::Tool {};
 
 TEST_F(NotesOfTheTool, json_printed_page_and_c_say_the_same) {
@@ -95,6 +105,14 @@ TEST_F(NotesOfTheTool, json_printed_page_and_c_say_the_same) {
   EXPECT_EQ(nlohmann::json::parse(json)["notes"], said);
   tetsoup_pipeline_destroy(pipeline);
   tetsoup_soup_destroy(soup);
+}
+
+TEST_F(NotesOfTheTool, tets_auto_is_told_as_the_count_that_was_taken) {
+  ASSERT_EQ(run({"sample", "sphere", "-q"}).exit_code, 0);
+  ASSERT_EQ(run({"mesh", "sphere.obj", "-o", "a.msh", "--tets", "auto", "--json", "a.json", "-q"}).exit_code, 0);
+  const nlohmann::json report = nlohmann::json::parse(test::read_text(in_folder("a.json")));
+  EXPECT_EQ(report["options"]["tets"], 500);
+  EXPECT_EQ(run({"mesh", "sphere.obj", "-o", "a.msh", "--tets", "many"}).exit_code, 2);
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ struct MeshCommand {
   std::optional<std::string> preview;
   std::optional<std::string> page;
   MeshOptions options;
+  TetCount tet_count = TetCount::Given;
   Material material;
   bool material_is_default = true;
   RunOptions run;
@@ -157,6 +158,13 @@ void write_page(const MeshCommand& command, MeshRun& run, NewFiles& files) {
   run.outputs.push_back(*command.page);
 }
 
+/// False where a count of tets was searched for and none holds the shape.
+bool mesh_as_asked(const MeshCommand& command, Pipeline& pipeline, ProgressBar& bar) {
+  if (command.tet_count == TetCount::Search) return find_tet_count(pipeline, command.options, bar.callback()).held;
+  pipeline.run(command.options, bar.callback());
+  return true;
+}
+
 void run_mesh(MeshCommand& command) {
   const Stopwatch watch;
   check_input(command.input);
@@ -172,8 +180,8 @@ void run_mesh(MeshCommand& command) {
   run.seconds.read = read_watch.seconds();
   Pipeline pipeline = open_pipeline(command.input, soup, bar);
   command.options.memory_limit = memory_limit(command.run);  // what is left once the soup is in memory
-  pipeline.run(command.options, bar.callback());
-  run.options = command.options;
+  const bool held = mesh_as_asked(command, pipeline, bar);
+  run.options = pipeline.options();
   run.pipeline = &pipeline;
   take_stage_times(run);
   const bool seen = !command.run.quiet || command.json || command.preview || command.page;
@@ -186,6 +194,9 @@ void run_mesh(MeshCommand& command) {
   NewFiles files;
   write_meshes(command, planned, run, files);
   if (seen) run.notes = notes_of({pipeline, run.quality, run.fidelity, run.engine, run.material.metres_per_unit});
+  if (!held)
+    run.notes.push_back(
+        "No count of tets up to 32,000 holds the shape in all that is checked; more voxels (--voxels) may.");
   if (command.preview) draw_preview(*command.preview, command.model.up, run, files);
   bar.clear();
   throw_if_interrupted();
@@ -214,7 +225,7 @@ void add_mesh_command(CLI::App& app) {
   add_grid_flags(*mesh, command->options.distance);
   add_volume_flags(*mesh, command->options.pseudo_volume);
   add_join_flag(*mesh, command->options.join);
-  add_lattice_flags(*mesh, command->options.lattice);
+  add_lattice_flags(*mesh, command->options.lattice, command->tet_count);
   add_cover_flags(*mesh, command->options.lattice);
   add_topology_flags(*mesh, command->options.lattice.topology);
   add_smooth_flags(*mesh, command->options.smooth);

@@ -13,6 +13,7 @@ namespace {
 
 // The ranges are those of the public headers; they are checked here so that the message names the flag.
 constexpr Range kVoxels{.low = 1, .high = 4096, .words = "a whole number from 1 to 4096"};
+constexpr Range kWantedOrAuto{.low = 1, .high = 134217728, .words = "a whole number from 1 to 134217728, or auto"};
 constexpr Range kWanted{.low = 1, .high = 134217728, .words = "a whole number from 1 to 134217728"};
 constexpr Range kCells{.low = 1, .high = 1024, .words = "a whole number from 1 to 1024"};
 constexpr Range kShare{.low = 0, .high = 1, .low_included = false, .words = "a number above 0, at most 1"};
@@ -101,13 +102,16 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
 namespace {
 
 /// How fine the lattice is: at most one of these.
-std::vector<CLI::Option*> add_size_flags(CLI::App& app, LatticeOptions& options) {
+std::vector<CLI::Option*> add_size_flags(CLI::App& app, LatticeOptions& options, TetCount& count) {
   CLI::Option* const tets = add_flag(
       app, "--tets", "N",
-      [&options](const std::string& text) {
-        options.tets = static_cast<std::size_t>(parse_whole("--tets", text, kWanted));
+      [&options, &count](const std::string& text) {
+        count = text == "auto" ? TetCount::Search : TetCount::Given;
+        if (count == TetCount::Given)
+          options.tets = static_cast<std::size_t>(parse_whole("--tets", text, kWantedOrAuto));
       },
-      "Tets wanted: hit within 5 %, below 200 within 10 % (2000)");
+      "Tets wanted: hit within 5 %, below 200 within 10 % (2000); or\nauto: the fewest of 500 to 32,000 at which the "
+      "shape holds");
   CLI::Option* const vertices = add_flag(
       app, "--vertices", "N",
       [&options](const std::string& text) {
@@ -134,8 +138,8 @@ std::vector<CLI::Option*> add_size_flags(CLI::App& app, LatticeOptions& options)
 
 }  // namespace
 
-void add_lattice_flags(CLI::App& app, LatticeOptions& options) {
-  for (CLI::Option* const option : add_size_flags(app, options)) option->group(kLatticeGroup);
+void add_lattice_flags(CLI::App& app, LatticeOptions& options, TetCount& count) {
+  for (CLI::Option* const option : add_size_flags(app, options, count)) option->group(kLatticeGroup);
   CLI::Option* const kind = add_flag(
       app, "--lattice", "five|bcc",
       [&options](const std::string& text) {

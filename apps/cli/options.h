@@ -46,7 +46,9 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
 void add_grid_flags(CLI::App& app, DistanceOptions& options);
 void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options);
 void add_join_flag(CLI::App& app, Join& join);
-void add_lattice_flags(CLI::App& app, LatticeOptions& options);
+/// How many tets: as the options say, or searched for.
+enum class TetCount { Given, Search };
+void add_lattice_flags(CLI::App& app, LatticeOptions& options, TetCount& count);
 void add_cover_flags(CLI::App& app, LatticeOptions& options);
 void add_topology_flags(CLI::App& app, TopologyOptions& options);
 void add_smooth_flags(CLI::App& app, SmoothOptions& options);

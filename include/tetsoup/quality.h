@@ -82,10 +82,11 @@ struct Fidelity {
   double volume_ratio = 1;         ///< Volume of the mesh over that.
   double wall_edges = 0;           ///< Twice volume over area of a closed soup: how thick it is where it is thin.
   double volume_limit = 1;         ///< What the ratio may be: 1.1, more where walls are thinner than half an edge.
-  double stray_share = 0;       ///< Of the mesh's volume, outside a closed soup and farther than half an edge from it.
-  std::size_t soup_pieces = 0;  ///< What hangs together at a 256th of the soup's longest side.
-  std::size_t mesh_pieces = 0;  ///< Joined through faces.
-  std::size_t torn_pieces = 0;  ///< Pieces of the mesh beyond one of what hangs together in the soup.
+  double stray_share = 0;  ///< Of the mesh's volume, outside a closed soup and farther than half an edge from it.
+  std::size_t soup_pieces =
+      0;  ///< What hangs together at a 256th of the soup's longest side; a 128th for a mesh of one piece.
+  std::size_t mesh_pieces = 0;    ///< Joined through faces.
+  std::size_t torn_pieces = 0;    ///< Pieces of the mesh beyond one of what hangs together in the soup.
   std::size_t joined_pieces = 0;  ///< Pieces of the soup that the mesh joins to another, which they do not touch.
   std::size_t lost_pieces = 0;    ///< Pieces of the soup that the mesh does not reach.
   double soup_tunnels = 0, mesh_tunnels = 0;  ///< Through both, where the soup is closed and one part; else 0.

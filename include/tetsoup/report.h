@@ -46,6 +46,15 @@ std::vector<std::string> notes_of(const Findings& found);
 /// Why the grid is coarser than asked, or none; notes_of() holds them.
 std::vector<std::string> grid_notes(const CleanSoup& soup, const DistanceOptions& asked, const GridFrame& frame);
 
+/// The smallest of 500, 1,000, 2,000 ... 32,000 tets whose mesh passes all that readiness asks of its fidelity to the
+/// soup: what `--tets auto` takes. Each is tried with the options as they are, and the pipeline is left with the
+/// answer's mesh; where none passes, with that of the largest number, which is told by `held`.
+struct CountSearch {
+  std::size_t tets = 0;
+  bool held = false;
+};
+CountSearch find_tet_count(Pipeline& pipeline, const MeshOptions& options, const Progress& progress = {});
+
 /// A report that people look at.
 struct ReportPage {
   std::string title = "mesh";          ///< Such as the file's name.

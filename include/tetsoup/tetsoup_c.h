@@ -154,8 +154,8 @@ tetsoup_status tetsoup_pipeline_grid(const tetsoup_pipeline* pipeline, tetsoup_g
 tetsoup_status tetsoup_pipeline_slice(tetsoup_pipeline* pipeline, tetsoup_field field, int32_t axis, int32_t layer,
                                       tetsoup_floats* values);
 /* JSON of all that is up to date: "soup", "grid", "pseudo_volume", "lattice", "smooth", "lattice_quality", "quality"
- * (with its histogram), "fidelity" (to the soup), "readiness" for `material` (keys as in scene files), "notes" (sentences
- * for the user), "seconds", "options". Members are those of `tetsoup mesh --json`. */
+ * (with its histogram), "fidelity" (to the soup), "readiness" for `material` (keys as in scene files), "notes"
+ * (sentences for the user), "seconds", "options". Members are those of `tetsoup mesh --json`. */
 tetsoup_status tetsoup_pipeline_report(tetsoup_pipeline* pipeline, const char* material, const char** json);
 /* JSON: "iou_pseudo_volume" and "boundary_distance_edges" of the final mesh; takes longer than the report. */
 tetsoup_status tetsoup_pipeline_accuracy(tetsoup_pipeline* pipeline, const char** json);

@@ -14,10 +14,11 @@ namespace tetsoup {
 
 namespace {
 
-constexpr double kCellsAlong = 256;  ///< Over the soup's longest side: what is closer than a cell hangs together.
-constexpr std::size_t kAsked = 48;   ///< Places of a piece that are asked.
-constexpr double kReach = 0.75;      ///< Edges; as for what is lost.
-constexpr double kSpeck = 0.75;      ///< Edges; pieces of a soup smaller than that are not told to be joined or lost.
+/// Over the soup's longest side: what is closer than a cell hangs together. A mesh of one piece needs to know less.
+constexpr double kCellsAlong = 256, kCellsOfOne = 128;
+constexpr std::size_t kAsked = 48;  ///< Places of a piece that are asked.
+constexpr double kReach = 0.75;     ///< Edges; as for what is lost.
+constexpr double kSpeck = 0.75;     ///< Edges; pieces of a soup smaller than that are not told to be joined or lost.
 constexpr std::uint32_t kNone = ~0U;
 
 struct Nearest {
@@ -60,9 +61,9 @@ struct SoupPieces {
   std::vector<SurfaceCell> cells;
 };
 
-SoupPieces find_soup_pieces(const TriangleSoup& soup, const SoupFacts& facts) {
+SoupPieces find_soup_pieces(const TriangleSoup& soup, const SoupFacts& facts, double cells_along) {
   const Box3 box = box_of(soup.vertices);
-  double cell = std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z}) / kCellsAlong;
+  double cell = std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z}) / cells_along;
   SoupPieces pieces;
   pieces.cells = find_surface_cells(soup, facts.part, cell);
   std::uint32_t groups = 0;
@@ -88,7 +89,7 @@ void match_pieces(const TetMesh& mesh, const MeshSkin& skin, const TriangleBoxes
                   const SoupFacts& facts, const TriangleBoxes& of_soup, Fidelity& found) {
   found.soup_pieces = 1;
   if (facts.parts <= 1) return void(found.torn_pieces = skin.pieces > 1 ? skin.pieces - 1 : 0);
-  const SoupPieces pieces = find_soup_pieces(soup, facts);
+  const SoupPieces pieces = find_soup_pieces(soup, facts, skin.pieces > 1 ? kCellsAlong : kCellsOfOne);
   found.soup_pieces = pieces.count;
   const auto piece_of = [&](std::uint32_t triangle) { return pieces.of_part[facts.part[triangle]]; };
 

@@ -39,6 +39,46 @@ void visit_points(std::array<Vec3d, 3> p, double step, const Visit& visit) {
   }
 }
 
+/// Which cells a part has a point in already: a table with open places, at most half full.
+class PlacesTaken {
+ public:
+  bool add(std::uint64_t key, std::uint32_t part) {
+    if (key == last_key_ && part == last_part_) return false;
+    last_key_ = key, last_part_ = part;
+    if (2 * (count_ + 1) > places_.size()) grow();
+    Place& place = find(key, part);
+    if (place.key != 0) return false;
+    place = {key, part};
+    ++count_;
+    return true;
+  }
+
+ private:
+  struct Place {
+    std::uint64_t key = 0;  ///< Of no cell: open.
+    std::uint32_t part = 0;
+  };
+  Place& find(std::uint64_t key, std::uint32_t part) {
+    constexpr std::uint64_t kMix = 0x9e3779b97f4a7c15U;
+    const std::uint64_t mixed = (key ^ (std::uint64_t{part} << 40)) * kMix;
+    std::size_t i = static_cast<std::size_t>(mixed ^ (mixed >> 29)) & (places_.size() - 1);
+    while (places_[i].key != 0 && (places_[i].key != key || places_[i].part != part))
+      i = (i + 1) & (places_.size() - 1);
+    return places_[i];
+  }
+  void grow() {
+    std::vector<Place> old(2 * places_.size());
+    old.swap(places_);
+    for (const Place& place : old)
+      if (place.key != 0) find(place.key, place.part) = place;
+  }
+
+  std::vector<Place> places_{1U << 14U};
+  std::size_t count_ = 0;
+  std::uint64_t last_key_ = 0;
+  std::uint32_t last_part_ = 0;
+};
+
 }  // namespace
 
 std::vector<SurfaceCell> find_surface_cells(const TriangleSoup& soup, const std::vector<std::uint32_t>& part,
@@ -48,25 +88,18 @@ std::vector<SurfaceCell> find_surface_cells(const TriangleSoup& soup, const std:
   cell = std::max(cell, size / kMostCells);
   std::vector<SurfaceCell> cells;
   if (!(cell > 0) || std::isinf(cell)) return cells;
-  std::uint64_t last = 0;
-  std::uint32_t last_part = 0;
+  PlacesTaken taken;
   for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
     const auto [a, b, c] = soup.triangles[t];
     visit_points({to_double(soup.vertices[a]), to_double(soup.vertices[b]), to_double(soup.vertices[c])}, kStep * cell,
                  [&](const Vec3d& p) {
                    const std::uint64_t key = key_of(p, box.lo, cell);
-                   if (key == last && part[t] == last_part) return;
-                   cells.push_back({key, p, t});
-                   last = key, last_part = part[t];
+                   if (taken.add(key, part[t])) cells.push_back({key, p, t});
                  });
   }
-  std::stable_sort(cells.begin(), cells.end(), [&](const auto& a, const auto& b) {
+  std::sort(cells.begin(), cells.end(), [&](const auto& a, const auto& b) {
     return a.key != b.key ? a.key < b.key : part[a.triangle] < part[b.triangle];
   });
-  const auto same = [&](const auto& a, const auto& b) {
-    return a.key == b.key && part[a.triangle] == part[b.triangle];
-  };
-  cells.erase(std::unique(cells.begin(), cells.end(), same), cells.end());
   return cells;
 }
 

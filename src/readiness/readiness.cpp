@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMinDihedral = 20, kMaxDihedral = 155;  ///< Degrees; outside, elements lock and time steps shrink.
 constexpr double kMaxEdgeRatio = 3.5;
-constexpr double kMaxVolumeRatio = 100;   ///< Largest over smallest tet: beyond, the smallest sets the time step.
+constexpr double kMaxVolumeRatio = 200;   ///< Largest over smallest tet: that is a hundredth of the mean, or less.
 constexpr double kMaxBoundaryOnly = 0.5;  ///< Share of tets without an interior vertex: beyond, the body is too stiff.
 constexpr double kLongestLost = 1.5;    ///< Edges of the model without mesh: less is the coarseness that was asked for.
 constexpr double kLeastVolume = 0.9;    ///< Of the model's; what is more, Fidelity says.

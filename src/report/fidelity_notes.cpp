@@ -11,7 +11,7 @@ namespace {
 
 using Notes = std::vector<std::string>;
 
-/// Numbers that the advice names: twice the voxels, and tets of half the edge.
+/// What the advice names: twice the voxels, and as many tets as hold the shape when tried.
 struct Advice {
   std::string voxels, tets;
 };
@@ -20,8 +20,7 @@ Advice advice_for(const Findings& found) {
   const GridFrame& frame = found.pipeline.grid();
   constexpr int kMostVoxels = 1024;
   const int voxels = *std::max_element(frame.size.begin(), frame.size.end()) - 2 * frame.pad;
-  return {"--voxels " + std::to_string(std::min(2 * voxels, kMostVoxels)),
-          "--tets " + std::to_string(4 * found.quality.tet_count)};
+  return {"--voxels " + std::to_string(std::min(2 * voxels, kMostVoxels)), "--tets auto tries how many"};
 }
 
 void note_lost(const Fidelity& f, const Advice& advice, Notes& notes) {
@@ -33,8 +32,10 @@ void note_lost(const Fidelity& f, const Advice& advice, Notes& notes) {
                     advice.tets + ").");
   if (f.lost_pieces > 0)
     notes.push_back("Of the " + counted(f.soup_pieces, "piece") + " of the model " + grouped(f.lost_pieces) + " " +
-                    (f.lost_pieces == 1 ? "has" : "have") + " no tets. --min-part 0 drops nothing for its size; " +
-                    advice.tets + " leaves more for each.");
+                    (f.lost_pieces == 1 ? "has" : "have") +
+                    " no tets. --min-part 0 drops nothing for its size; "
+                    "more tets (" +
+                    advice.tets + ") leave more for each.");
 }
 
 void note_volume(const Fidelity& f, const Advice& advice, Notes& notes) {
