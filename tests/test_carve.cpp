@@ -63,5 +63,16 @@ TEST(Carve, a_thin_ring_keeps_its_hole) {
   EXPECT_EQ(euler_characteristic(fill(s, options).mesh), 0);
 }
 
+TEST(Carve, what_encloses_the_vertices_of_a_body_is_one_piece_with_it) {
+  for (const TriangleSoup& soup : {turned_box({1, 0.7, 0.4}), make_sample("torus"), test::make_ball(1)}) {
+    const Stages s = classify(soup, 100);
+    LatticeOptions options;
+    options.cover = Cover::Enclose;
+    const LatticeMesh mesh = fill(s, options);
+    EXPECT_EQ(measure_quality(mesh.mesh).components, 1U);
+    EXPECT_TRUE(measure_quality(mesh.mesh).boundary_manifold);
+  }
+}
+
 }  // namespace
 }  // namespace tetsoup

@@ -52,7 +52,7 @@ class Carver {
   }
 
   void enqueue(std::uint32_t t) {
-    if (!complex_.is_kept(t) || is_queued_[t] || complex_.density(t) >= limit_) return;
+    if (!complex_.is_kept(t) || complex_.is_held(t) || is_queued_[t] || complex_.density(t) >= limit_) return;
     is_queued_[t] = 1;
     queue_.push({complex_.density(t), t});
   }
@@ -148,7 +148,7 @@ std::size_t carve(Candidates& candidates, double dense, const BitGrid& body, Top
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
     if (!complex.is_kept(t)) continue;
     const bool is_thin = complex.density(t) < dense;
-    complex.set_state(t, is_thin ? kHeld : std::uint8_t{1});
+    if (!complex.is_held(t)) complex.set_state(t, is_thin ? kHeld : std::uint8_t{1});
     left += is_thin;
   }
   return left;

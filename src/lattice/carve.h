@@ -22,6 +22,8 @@ void trim_slivers(Candidates& candidates, double dense, const BitGrid& body, Sta
 /// string of tets to its end. What only touches in the cover is joined first, so that a body that hangs together gives
 /// one piece.
 ///
+/// Tets that are marked kHeld stay: what encloses a point is joined to the body by whatever the cover has between.
+///
 /// @param dense  Above 1: no tet stays for its density.
 /// @return  Tets left that are not dense; they are marked kHeld.
 /// Cost: O(tets log tets).

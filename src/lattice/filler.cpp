@@ -61,6 +61,14 @@ double core_share(const BitGrid& inside, StageWatch& watch) {
   return counts.all == 0 ? 0 : static_cast<double>(counts.core) / static_cast<double>(counts.all);
 }
 
+/// Held tets that would not stay for their density.
+std::size_t count_held_below(const Candidates& candidates, double rho_min) {
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < candidates.kept.size(); ++t)
+    count += candidates.kept[t] == kHeld && candidates.density[t] < rho_min;
+  return count;
+}
+
 }  // namespace
 
 std::size_t Fill::kept_tets() const {
@@ -126,6 +134,10 @@ void Filler::carve_cover(Fill& fill) {
   } else if (options_.thin == Thin::Keep) {
     keep_cover(candidates);
   }
+  if (options_.cover == Cover::Enclose && options_.thin == Thin::Keep) {
+    keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
+    fill.mended.enclosing_tets = count_held_below(candidates, options_.rho_min);
+  }
   if (options_.separate == Separate::Apart && !fill.by_soup) {
     if (options_.thin == Thin::Keep) trim_slivers(candidates, options_.rho_min, body_, watch_);
     const double rho_min = options_.thin == Thin::Keep ? 0 : options_.rho_min;
@@ -150,7 +162,7 @@ void Filler::mend(Fill& fill) {
     if (options_.stairs == Stairs::Even && !fill.by_soup) report.evened_tets = even_out(candidates, options_.rho_min);
   }
   if (options_.cover == Cover::Enclose)
-    report.enclosing_tets = keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
+    report.enclosing_tets += keep_enclosing_tets(candidates, soup_.soup.vertices, watch_);
   TopologyOptions topology = options_.topology;
   if (options_.cover == Cover::Enclose) topology.min_part = 0;  // or what was enclosed would be dropped
   const TopologyReport cover = report.topology;
