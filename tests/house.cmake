@@ -1,4 +1,5 @@
-# Tests of the house itself: the order of includes, the functions that results may depend on, and strangers' projects that use tetsoup both ways.
+# Tests of the house itself: the order of includes, names of types, functions that results may depend on; and strangers'
+# projects that use tetsoup both ways.
 
 add_test(NAME house.include_order
   COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_includes.cmake)
@@ -7,6 +8,8 @@ add_test(NAME house.include_order_notices_planted_violations
           -P ${CMAKE_CURRENT_SOURCE_DIR}/check_includes_selftest.cmake)
 add_test(NAME house.results_do_not_depend_on_the_c_library
   COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_elementary.cmake)
+add_test(NAME house.every_type_has_a_name_of_its_own
+  COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -P ${CMAKE_CURRENT_SOURCE_DIR}/check_types.cmake)
 add_test(NAME house.checks_notice_planted_violations
   COMMAND ${CMAKE_COMMAND} -DWORK_DIR=${CMAKE_CURRENT_BINARY_DIR}/planted_house
           -P ${CMAKE_CURRENT_SOURCE_DIR}/check_house_selftest.cmake)

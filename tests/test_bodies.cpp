@@ -82,8 +82,8 @@ TEST(Orientation, is_exact_where_doubles_are_not) {
   EXPECT_EQ(orientation(a, b, c, a), 0);
   EXPECT_EQ(orientation(a, b, c, Vec3{0x1p20F, 0x1p-20F, 0x1p-60F}), orientation(a, b, c, Vec3{0x1p21F, 1, 1}));
   EXPECT_EQ(orientation(a, b, c, Vec3{0x1p20F, 0x1p-20F, -0x1p-60F}), -orientation(a, b, c, Vec3{0x1p21F, 1, 1}));
-  EXPECT_EQ(orientation(Vec2{0, 0}, Vec2{1, 1}, Vec2{0x1p-30F, 0x1.000002p-30F}), 1);
-  EXPECT_EQ(orientation(Vec2{0x1p30F, 0x1p30F}, Vec2{-1, -1}, Vec2{0x1p-30F, 0x1p-30F}), 0);
+  EXPECT_EQ(orientation(PlanePoint{0, 0}, PlanePoint{1, 1}, PlanePoint{0x1p-30F, 0x1.000002p-30F}), 1);
+  EXPECT_EQ(orientation(PlanePoint{0x1p30F, 0x1p30F}, PlanePoint{-1, -1}, PlanePoint{0x1p-30F, 0x1p-30F}), 0);
 }
 
 TEST(Orientation, agrees_with_whole_numbers_of_any_order_of_the_corners) {

@@ -53,7 +53,7 @@ TEST(InsideBlocks, say_of_any_box_what_its_voxels_say) {
 }
 
 /// Lattices that lie on the voxels exactly, nearly and not at all.
-std::vector<Pose> poses_to_count() {
+std::vector<LatticePose> poses_to_count() {
   constexpr double kEighth = std::numbers::pi / 4;
   const std::array<Vec3d, 7> turns{{{0, 0, 0},
                                     {0.3, -0.2, 0.5},
@@ -63,7 +63,7 @@ std::vector<Pose> poses_to_count() {
                                     {1e-9, 1e-7, 0},
                                     {2 * kEighth, 0, 4 * kEighth}}};
   const std::array<Vec3d, 4> shifts{{{0, 0, 0}, {0.25, 0.0625, 0.5}, {0.31, 0.12, 0.77}, {0.25 + 1e-9, 0.125, 1000.5}}};
-  std::vector<Pose> all;
+  std::vector<LatticePose> all;
   for (const Vec3d& turn : turns)
     for (const Vec3d& shift : shifts)
       for (const double size : {0.05, 0.5, 1.0, 0.7771, 9.0}) all.push_back({size, shift, turn});
@@ -76,7 +76,7 @@ TEST(CellRows, count_by_runs_what_voxels_asked_one_by_one_say) {
   StageWatch watch(nobody, "test");
   const InsideBlocks blocks(grid, watch);
   test::Random random(4);
-  for (const Pose& pose : poses_to_count()) {
+  for (const LatticePose& pose : poses_to_count()) {
     const LatticeFrame frame = make_lattice_frame(grid.frame, pose);
     const CellRows rows(blocks, frame);
     const Vec3d first = frame.to_cell(grid.frame.origin);

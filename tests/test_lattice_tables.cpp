@@ -136,12 +136,12 @@ TEST(LatticeTables, tets_beside_each_other_in_a_cell_share_a_face) {
 }
 
 /// Lattices that lie on the voxels exactly, nearly and not at all.
-const std::array<Pose, 6> kPoses{{{0.5, {0, 0, 0}, {0, 0, 0}},
-                                  {0.5, {0.25, 0.0625, 0.5}, {0, 0, 0}},
-                                  {0.7771, {0.31, 0.12, 0.77}, {0.3, -0.2, 0.5}},
-                                  {1, {0, 0, 0}, {0, 0, std::numbers::pi / 4}},
-                                  {0.25, {1e-9, 0, 1000.5}, {1e-9, 1e-7, 0}},
-                                  {0.09, {0.1, 0.2, 0.3}, {1, 2, 3}}}};
+const std::array<LatticePose, 6> kPoses{{{0.5, {0, 0, 0}, {0, 0, 0}},
+                                         {0.5, {0.25, 0.0625, 0.5}, {0, 0, 0}},
+                                         {0.7771, {0.31, 0.12, 0.77}, {0.3, -0.2, 0.5}},
+                                         {1, {0, 0, 0}, {0, 0, std::numbers::pi / 4}},
+                                         {0.25, {1e-9, 0, 1000.5}, {1e-9, 1e-7, 0}},
+                                         {0.09, {0.1, 0.2, 0.3}, {1, 2, 3}}}};
 
 TEST(TetRows, every_voxel_belongs_to_exactly_one_tet_and_that_holds_it) {
   BitGrid grid = make_bit_grid({{9, 8, 7}, 2, {-0.3, 0.2, 0.1}, 0.125});
@@ -149,7 +149,7 @@ TEST(TetRows, every_voxel_belongs_to_exactly_one_tet_and_that_holds_it) {
   StageWatch watch(nobody, "test");
   for (const LatticeKind kind : kKinds) {
     const LatticeTable& table = lattice_table(kind);
-    for (const Pose& pose : kPoses) {
+    for (const LatticePose& pose : kPoses) {
       const LatticeFrame frame = make_lattice_frame(grid.frame, pose, 0.5);
       const InsideBlocks blocks(grid, watch);
       const TetRows rows(blocks, frame, table);

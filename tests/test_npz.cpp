@@ -1,6 +1,7 @@
 // NumPy files of models, and embeddings in both layouts: exact bytes, and damage.
 #include "io/npz.h"
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -145,6 +146,24 @@ class EmbeddingFile : public testing::Test {
   }
   const fs::path folder = fs::temp_directory_path() / ("tetsoup-embedding-" + std::to_string(std::random_device()()));
 };
+
+TEST_F(EmbeddingFile, a_point_that_is_none_is_still_none_when_read_back) {
+  TetMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tets = {{0, 1, 2, 3}};
+  TriangleSoup soup;
+  soup.vertices = {{0.1F, 0.1F, 0.1F}, {-0.5F, 0.2F, 0.2F}, {std::nanf(""), 0, 0}};
+  const Embedding embedding = embed_points(mesh, soup);
+  ASSERT_EQ(embedding.report.non_finite, 1U);
+  for (const char* name : {"e.npz", "e.embedding"}) {
+    bytes_of(name, embedding);
+    const EmbedReport read = read_embedding(folder / name).report;
+    EXPECT_EQ(read.non_finite, 1U) << name;
+    EXPECT_EQ(read.inside, embedding.report.inside) << name;
+    EXPECT_EQ(read.outside, embedding.report.outside) << name;
+    EXPECT_EQ(static_cast<float>(read.max_distance), static_cast<float>(embedding.report.max_distance)) << name;
+  }
+}
 
 TEST_F(EmbeddingFile, both_layouts_give_back_what_was_written) {
   for (const char* name : {"e.npz", "e.embedding"})

@@ -103,6 +103,8 @@ TEST(Scene, what_is_wrong_is_named_by_its_path) {
       {box_with(R"(, "place": {"translate": [1, 2]})"), "bodies[0].place.translate: [1,2] is not three numbers", ""},
       {box_with(R"(, "place": {"translate": [1, 2, "x"]})"), "bodies[0].place.translate[2]", "number"},
       {box_with(R"(, "place": {"translate": [1, 2, 1e6]})"), "bodies[0].place.translate[2]: 1e+06", "1e5 m"},
+      {box_with(R"(, "material": {"young": 5e-324})"), "bodies[0].material.young: 4.94", "out of range"},
+      {box_with(R"(, "material": {"density": 1e-310})"), "bodies[0].material.density: 1e-310", "out of range"},
       {box_with(R"(, "origin": "top")"), "bodies[0].origin: \"top\" is not one of own, centre, bottom", ""},
       {box_with(R"(, "instances": [])"), "bodies[0].instances", "no instance"},
       {box_with(R"(, "instances": {"count": [100, 100, 100]})"), "bodies[0].instances: 1e+06 are too many", ""},
@@ -140,6 +142,17 @@ TEST(Scene, what_is_wrong_is_named_by_its_path) {
     EXPECT_NE(said.find(where), std::string::npos) << text << "\n" << said;
     EXPECT_NE(said.find(what), std::string::npos) << text << "\n" << said;
     EXPECT_TRUE(said.starts_with("my.json: ")) << said;
+  }
+}
+
+TEST(Scene, a_number_below_the_normal_ones_is_out_of_range_in_a_part_that_stands_alone_too) {
+  for (const char* number : {"5e-324", "1e-310", "-2e-308"}) {
+    try {
+      parse_material(std::string(R"({"young": )") + number + "}");
+      ADD_FAILURE() << number;
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find("young"), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -60,9 +60,9 @@ int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
   return sum.sign();
 }
 
-int exact_orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
+int exact_orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   ExactSum sum;
-  const auto add_cross = [&sum](const Vec2& u, const Vec2& v) {
+  const auto add_cross = [&sum](const PlanePoint& u, const PlanePoint& v) {
     sum.add(static_cast<double>(u.x) * v.y);
     sum.add(-static_cast<double>(u.y) * v.x);
   };
@@ -86,7 +86,7 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return exact_orientation(a, b, c, d);
 }
 
-int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
+int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
   const auto apart = [](float p, float q) { return static_cast<double>(p) - static_cast<double>(q); };
   const double left = apart(b.x, a.x) * apart(c.y, a.y), right = apart(b.y, a.y) * apart(c.x, a.x);
   const double value = left - right, size = std::abs(left) + std::abs(right);

@@ -10,11 +10,11 @@ namespace tetsoup {
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// A point of a plane.
-struct Vec2 {
+struct PlanePoint {
   float x = 0, y = 0;
 };
 
 /// Sign of the cross product of b - a and c - a, as exact.
-int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
+int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 
 }  // namespace tetsoup

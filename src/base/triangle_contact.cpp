@@ -27,8 +27,8 @@ bool all_zero(const Signs& s) {
 }
 
 /// Without the coordinate `axis`.
-Vec2 flat(const Vec3& p, int axis) {
-  return axis == 0 ? Vec2{p.y, p.z} : axis == 1 ? Vec2{p.z, p.x} : Vec2{p.x, p.y};
+PlanePoint flat(const Vec3& p, int axis) {
+  return axis == 0 ? PlanePoint{p.y, p.z} : axis == 1 ? PlanePoint{p.z, p.x} : PlanePoint{p.x, p.y};
 }
 
 /// An axis along which the triangle is seen with an area; 3 where it has none.
@@ -47,7 +47,7 @@ bool boxes_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
 
 /// Segments in one plane, seen along an axis along which it has an area.
 bool segments_meet_in_plane(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, int axis) {
-  const Vec2 a = flat(p, axis), b = flat(q, axis), c = flat(r, axis), d = flat(s, axis);
+  const PlanePoint a = flat(p, axis), b = flat(q, axis), c = flat(r, axis), d = flat(s, axis);
   const int of_c = orientation(a, b, c), of_d = orientation(a, b, d);
   const int of_a = orientation(c, d, a), of_b = orientation(c, d, b);
   if (of_c * of_d > 0 || of_a * of_b > 0) return false;
@@ -65,7 +65,8 @@ bool segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
 
 /// A point of the triangle's plane lies in it, seen along `axis`.
 bool holds(const TriangleCorners& triangle, const Vec3& p, int axis) {
-  const Vec2 a = flat(triangle[0], axis), b = flat(triangle[1], axis), c = flat(triangle[2], axis), at = flat(p, axis);
+  const PlanePoint a = flat(triangle[0], axis), b = flat(triangle[1], axis), c = flat(triangle[2], axis),
+                   at = flat(p, axis);
   const int ab = orientation(a, b, at), bc = orientation(b, c, at), ca = orientation(c, a, at);
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }

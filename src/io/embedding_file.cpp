@@ -1,5 +1,6 @@
 // Embeddings as NumPy arrays or in a layout that a graphics card takes as it is; docs/FORMATS.md describes both.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -100,10 +101,14 @@ Embedding parse_npz_embedding(std::string_view bytes, const std::string& name) {
   return embedding;
 }
 
-/// What the numbers themselves tell.
+/// What the numbers themselves tell: points that were none are infinitely far, as embed_points() leaves them.
 EmbedReport report_of(const Embedding& embedding) {
   EmbedReport report;
   for (const float distance : embedding.distances) {
+    if (!std::isfinite(distance)) {
+      ++report.non_finite;
+      continue;
+    }
     ++(distance > 0 ? report.outside : report.inside);
     report.max_distance = std::max(report.max_distance, static_cast<double>(distance));
   }

@@ -67,7 +67,7 @@ double fitted_power(const std::vector<Try>& tries, double power) {
 
 class Search {
  public:
-  Search(Filler& filler, const Budget& budget, const Pose& start, FineTuning tuning)
+  Search(Filler& filler, const Budget& budget, const LatticePose& start, FineTuning tuning)
       : filler_(filler), budget_(budget), pose_(start), tuning_(tuning), place_(place_of(start, filler.grid())) {}
 
   Fill run(int most_fills) {
@@ -116,7 +116,7 @@ class Search {
 
   Filler& filler_;
   const Budget& budget_;
-  Pose pose_;
+  LatticePose pose_;
   FineTuning tuning_;
   Place place_;
   std::vector<Try> tries_;
@@ -131,7 +131,7 @@ double Budget::tolerance() const {
   return wanted >= kFew ? kTolerance : kToleranceOfFew;
 }
 
-Fill search_budget(Filler& filler, const Budget& budget, const Pose& start, FineTuning tuning, int most_fills) {
+Fill search_budget(Filler& filler, const Budget& budget, const LatticePose& start, FineTuning tuning, int most_fills) {
   return Search(filler, budget, start, tuning).run(most_fills);
 }
 

@@ -32,7 +32,7 @@ enum class FineTuning {
 
 /// Looks for the fill that comes closest to the budget from the given pose on; ends once it is well within the
 /// tolerance, or after `most_fills`.
-Fill search_budget(Filler& filler, const Budget& budget, const Pose& start, FineTuning tuning, int most_fills);
+Fill search_budget(Filler& filler, const Budget& budget, const LatticePose& start, FineTuning tuning, int most_fills);
 
 /// Cell edge at which tets that fill the volume and no more would meet the budget.
 double expected_cell(const LatticeTable& table, const Budget& budget, double volume);

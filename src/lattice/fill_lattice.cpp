@@ -78,7 +78,7 @@ Fill with_whole_cells(Fill fill, Filler& filler, const Budget& budget, double vo
   const double longest = filler.longest_edge(), cells = longest / fill.pose.cell_size;
   for (const double whole : {std::round(cells), std::round(cells) > cells ? std::floor(cells) : std::ceil(cells)}) {
     if (whole < 1 || longest / whole < filler.smallest_cell() || filler.fills() >= kMostFills) continue;
-    Pose pose = fill.pose;
+    LatticePose pose = fill.pose;
     pose.cell_size = longest / whole;
     Fill other = filler.fill(pose);
     if (!other.by_soup && budget.miss(other) <= budget.tolerance() && volume_miss(other) < miss / 2) return other;
@@ -86,7 +86,7 @@ Fill with_whole_cells(Fill fill, Filler& filler, const Budget& budget, double vo
   return fill;
 }
 
-Fill fill_to_budget(Filler& filler, const Budget& budget, Pose pose, const PseudoVolume& volume) {
+Fill fill_to_budget(Filler& filler, const Budget& budget, LatticePose pose, const PseudoVolume& volume) {
   // A sheet has no volume to divide; a sixteenth of the box is where the search starts.
   constexpr double kOfLongest = 16;
   pose.cell_size = filler.has_volume() ? expected_cell(filler.table(), budget, volume.report.volume)
@@ -110,7 +110,7 @@ Fill fitted(Fill first, Filler& filler, const std::optional<Budget>& budget, con
   double best = filler.shares(kept_mesh(first.candidates)).overlap();
   const auto misses = [&](const Fill& fill) { return budget && budget->miss(fill) > budget->tolerance(); };
   for (const Place& place : places) {
-    const Pose pose = pose_of(place, filler.grid());
+    const LatticePose pose = pose_of(place, filler.grid());
     Fill other = budget ? search_budget(filler, *budget, pose, FineTuning::None, kMostFillsEach) : filler.fill(pose);
     const double overlap = filler.shares(kept_mesh(other.candidates)).overlap();
     if (other.by_soup || misses(other) || (overlap <= best && !misses(first))) continue;
@@ -168,7 +168,7 @@ LatticeMesh fill_lattice(const PseudoVolume& volume, const CleanSoup& soup, cons
   if (soup.report.used_triangles == 0) throw InvalidInput("the soup has no finite triangle");
   StageWatch watch(progress, "lattice");
   Filler filler(volume, soup, options, watch);
-  Pose pose{0, options.translate_cells, options.rotate};
+  LatticePose pose{0, options.translate_cells, options.rotate};
   const std::optional<Budget> budget = budget_of(options);
   if (!budget) pose.cell_size = given_cell_size(options, filler, volume.inside.frame);
   Fill fill = budget ? fill_to_budget(filler, *budget, pose, volume) : filler.fill(pose);

@@ -107,7 +107,7 @@ BitGrid Filler::find_body() const {
   return covers_soup ? body_voxels(volume_.inside, soup_, watch_) : volume_.inside;
 }
 
-Fill Filler::fill(const Pose& pose) {
+Fill Filler::fill(const LatticePose& pose) {
   check_cell(pose.cell_size);
   const double overhang = static_cast<double>(table_.reach) / kStepsPerCell - 1;
   Fill fill{pose, make_lattice_frame(grid_, pose, overhang), {}, false, 0, 0, {}};

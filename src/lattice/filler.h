@@ -11,7 +11,7 @@
 namespace tetsoup {
 
 struct Fill {
-  Pose pose;
+  LatticePose pose;
   LatticeFrame frame;
   Candidates candidates;
   bool by_soup = false;        ///< The tets that the soup passes through were kept.
@@ -35,7 +35,7 @@ class Filler {
   Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options, StageWatch& watch);
 
   /// The cover of the body, or what the soup passes through if that is a sheet; carved, then cover and clean-up.
-  Fill fill(const Pose& pose);
+  Fill fill(const LatticePose& pose);
 
   Shares shares(const TetMesh& mesh) const;
   int fills() const { return fills_; }

@@ -88,8 +88,8 @@ Matrix eigenvectors(Matrix a) {
 
 }  // namespace
 
-Pose pose_of(const Place& place, const GridFrame& grid) {
-  Pose pose{place.cell_size, {}, place.rotate};
+LatticePose pose_of(const Place& place, const GridFrame& grid) {
+  LatticePose pose{place.cell_size, {}, place.rotate};
   const Vec3d shift = make_lattice_frame(grid, pose).centre_cell - place.centre_cell;
   // Lattices repeat after two cells.
   const auto least = [](double s) { return s - 2 * std::round(s / 2); };
@@ -97,7 +97,7 @@ Pose pose_of(const Place& place, const GridFrame& grid) {
   return pose;
 }
 
-Place place_of(const Pose& pose, const GridFrame& grid) {
+Place place_of(const LatticePose& pose, const GridFrame& grid) {
   return {pose.cell_size, pose.rotate, make_lattice_frame(grid, pose).centre_cell};
 }
 
@@ -144,7 +144,7 @@ Vec3d FitPoints::principal_rotation() const {
 }
 
 Guess FitPoints::guess(const Place& place) const {
-  Pose pose{place.cell_size, {}, place.rotate};
+  LatticePose pose{place.cell_size, {}, place.rotate};
   LatticeFrame frame = make_lattice_frame(grid_, pose, 1);
   const Vec3d shift = place.centre_cell - frame.centre_cell;
   const std::array<int, 3> whole{floor_to_int(shift.x), floor_to_int(shift.y), floor_to_int(shift.z)};

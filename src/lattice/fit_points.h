@@ -17,8 +17,8 @@ struct Place {
 };
 
 /// The pose of that place.
-Pose pose_of(const Place& place, const GridFrame& grid);
-Place place_of(const Pose& pose, const GridFrame& grid);
+LatticePose pose_of(const Place& place, const GridFrame& grid);
+Place place_of(const LatticePose& pose, const GridFrame& grid);
 
 struct Guess {
   double tets = 0;     ///< That density would keep.

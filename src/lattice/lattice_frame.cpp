@@ -40,7 +40,7 @@ Box3 grid_box(const GridFrame& grid) {
   return {lo, lo + Vec3d{voxels(0), voxels(1), voxels(2)} * h};
 }
 
-LatticeFrame make_lattice_frame(const GridFrame& grid, const Pose& pose, double overhang) {
+LatticeFrame make_lattice_frame(const GridFrame& grid, const LatticePose& pose, double overhang) {
   LatticeFrame frame;
   const double cell_size = frame.cell_size = pose.cell_size;
   frame.axes = rotated_axes(pose.rotate);

@@ -16,11 +16,11 @@ inline bool is_odd(const Cell& cell) {
 }
 
 /// How a lattice lies over the grid.
-struct Pose {
+struct LatticePose {
   double cell_size = 1;
   Vec3d translate_cells;  ///< Of a cell.
   Vec3d rotate;           ///< Radians about x, then y, then z, around the centre of the soup's box.
-  bool operator==(const Pose&) const = default;
+  bool operator==(const LatticePose&) const = default;
 };
 
 /// Cell coordinates of a point are three numbers; their whole parts name the cell. Without translation, cells [0,
@@ -47,7 +47,7 @@ struct LatticeFrame {
 Box3 grid_box(const GridFrame& grid);
 
 /// `overhang`: how far a cell's tets reach beyond its upper faces, in cells.
-LatticeFrame make_lattice_frame(const GridFrame& grid, const Pose& pose, double overhang = 0);
+LatticeFrame make_lattice_frame(const GridFrame& grid, const LatticePose& pose, double overhang = 0);
 
 /// Smallest cell edge at which single-precision vertices of this grid's space still make well-shaped tets.
 double finest_cell_size(const GridFrame& grid);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 
 #include "base/listing.h"
@@ -18,7 +19,8 @@ std::string number_words(double value) {
     std::ostringstream text;
     text.precision(digits);
     text << value;
-    if (std::stod(text.str()) == value) return text.str();
+    // Not std::stod, which throws at numbers below the normal ones.
+    if (std::strtod(text.str().c_str(), nullptr) == value) return text.str();
   }
   std::ostringstream text;
   text.precision(17);

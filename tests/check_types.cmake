@@ -1,0 +1,45 @@
+# cmake -DROOT=<source tree> -P check_types.cmake: fails if two files of src/ and include/ define types of one name.
+#
+# Two types of one name in one namespace break the language's one definition rule: where both headers meet it does not
+# compile, and where templates over both meet, the linker keeps one and memory is read as the other. Unnamed namespaces
+# are each file's own.
+cmake_minimum_required(VERSION 3.23)
+
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/include/*.h ${ROOT}/src/*.h ${ROOT}/src/*.cpp)
+set(head "^(struct|class|union|enum|enum class) (alignas\\(.*\\) )?([A-Za-z0-9_]+)( final)?( : [^;{]*)? {")
+set(complaints "")
+set(type_count 0)
+foreach(file IN LISTS files)
+  # clang-format leaves what stands in a namespace at the start of its line.
+  file(STRINGS ${ROOT}/${file} lines REGEX "^(inline )?namespace |^}  // .*namespace|^(struct|class|union|enum) ")
+  set(scopes "")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^(inline )?namespace( [A-Za-z0-9_:]+)? {")
+      if(CMAKE_MATCH_2 STREQUAL "")
+        list(APPEND scopes unnamed)
+      else()
+        string(REPLACE "::" "." scope "${CMAKE_MATCH_2}")
+        string(STRIP "${scope}" scope)
+        list(APPEND scopes ${scope})
+      endif()
+    elseif(line MATCHES "^}  // .*namespace")
+      list(POP_BACK scopes)
+    elseif(line MATCHES "${head}" AND NOT "unnamed" IN_LIST scopes)
+      list(JOIN scopes "." scope)
+      set(name "${scope}.${CMAKE_MATCH_3}")
+      math(EXPR type_count "${type_count} + 1")
+      if(DEFINED "home_of_${name}")
+        string(REPLACE "." "::" name_shown "${name}")
+        string(APPEND complaints "  ${name_shown}: ${home_of_${name}} and ${file}\n")
+      endif()
+      set("home_of_${name}" ${file})
+    endif()
+  endforeach()
+endforeach()
+
+if(complaints)
+  message(FATAL_ERROR "Two types of one name; rename one, or give a stage's internals a namespace:\n${complaints}")
+elseif(type_count EQUAL 0)
+  message(FATAL_ERROR "No types found below ${ROOT}: nothing was checked")
+endif()
+message("${type_count} types have each a name of their own")
