@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/bits.h"
+#include "distance/fine_soups.h"
 #include "distance/scan_conversion.h"
 #include "distance/triangle_tree.h"
 #include "kernel/targets.h"
@@ -28,11 +30,22 @@ BlockGrid scanned(const CleanSoup& soup, int voxels, float band) {
   return scan_convert(find_features(soup, frame, watch), frame, band, watch);
 }
 
+/// Every voxel, one by one.
+BlockGrid asked(const std::vector<Triangle>& triangles, const std::vector<Vec3>& corners, const GridFrame& frame,
+                float band) {
+  const Progress silent;
+  StageWatch watch(silent, "distance");
+  BitGrid all = make_bit_grid(frame);
+  for (std::size_t i = 0; i < all.words.size(); ++i) all.words[i] = row_mask(frame.size[0], i % all.words_per_row);
+  return ask_voxels(CornerTree(triangles, corners, watch), all, band, watch);
+}
+
 void expect_same_as_brute_force(const TriangleSoup& soup, int voxels, float band) {
   const CleanSoup clean = clean_soup(soup);
   const GridFrame frame = grid_over(clean, voxels);
   const BlockGrid fast = scanned(clean, voxels, band);
   const std::vector<Vec3> vertices = voxel_vertices(clean, frame);
+  EXPECT_EQ(asked(clean.soup.triangles, vertices, frame, band), fast);
   std::vector<kernel::TrianglePlan> plans;
   for (const Triangle& t : clean.soup.triangles)
     plans.push_back(kernel::plan_triangle(vertices[t[0]], vertices[t[1]], vertices[t[2]]));
@@ -145,13 +158,35 @@ TEST(ScanConversion, the_full_field_has_the_same_bits_on_every_instruction_set_a
   set_thread_count(0);
 }
 
+TEST(ScanConversion, far_more_triangles_than_voxels_give_the_same_bits_with_fewer_questions) {
+  // A ball of 240,000 triangles with a stray one, on so few voxels.
+  const TriangleSoup ball = test::make_globe(401, 300, [](Vec3d p) { return p; });
+  const CleanSoup soup = clean_soup(test::joined(ball, test::make_confetti(1, 0.1, 3)));
+  const GridFrame frame = grid_over(soup, 20);
+  const Progress silent;
+  StageWatch watch(silent, "distance");
+  const std::vector<Vec3> corners = voxel_vertices(soup, frame);
+  EXPECT_TRUE(voxels_worth_asking(soup.soup.triangles, corners, frame, 3.25, watch));
+  const GridFrame fine = grid_over(soup, 200);
+  EXPECT_FALSE(voxels_worth_asking(soup.soup.triangles, voxel_vertices(soup, fine), fine, 3.25, watch));
+  DistanceOptions options;
+  options.voxels = 20;
+  DistanceField field = unsigned_distance(soup, options);
+  EXPECT_EQ(field.distance, scanned(soup, 20, 3.25F));
+  const TriangleTree tree(soup.soup.triangles, corners, watch);
+  const float middle = 0.5F * static_cast<float>(frame.size[0] - 1);
+  EXPECT_NEAR(field.d_max, std::sqrt(tree.nearest_squared(middle, middle, middle, 1e6F)) * frame.voxel_size, 0.1);
+  widen_distance(field, soup, 6);
+  EXPECT_EQ(field.distance, scanned(soup, 20, 6));
+}
+
 TEST(ScanConversion, the_tree_gives_the_bits_of_the_brute_force) {
   const CleanSoup soup = clean_soup(make_knot(40, 77, 5));
   const GridFrame frame = grid_over(soup, 20);
   const Progress silent;
   StageWatch watch(silent, "distance");
   const SoupFeatures features = find_features(soup, frame, watch);
-  const TriangleTree tree(features, watch);
+  const TriangleTree tree(features.triangles, features.corners, watch);
   for (int i = 0; i < 500; ++i) {
     const auto x = static_cast<float>(i % 24), y = static_cast<float>(i / 24), z = static_cast<float>(i % 19);
     float best = kernel::kBeyond;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,8 +15,7 @@ namespace tetsoup {
 
 /// Split where the highest bit of the Morton code changes: the boxes are those of an octree's cells.
 struct BoxHierarchy {
-  static constexpr std::uint32_t kLeafSize = 4;
-  static constexpr int kMaxDepth = 96;  ///< 48 bits of the code, then halves of what shares a code.
+  static constexpr int kMaxDepth = 64;  ///< 30 bits of the code, then halves of what shares a code.
 
   struct Box {
     Vec3 lo, hi;
@@ -29,34 +29,18 @@ struct BoxHierarchy {
   std::vector<std::uint32_t> order;  ///< The things, leaf after leaf.
 };
 
-/// Over the things 0 to count - 1: box(i) is a Box around thing i, place(i) where it lies, in the unit of
-/// morton_code(). O(n log n), partly on all threads.
-template <class BoxOf, class Place>
-BoxHierarchy make_box_hierarchy(std::size_t count, const BoxOf& box, const Place& place, StageWatch& watch);
-
-namespace detail {
-std::vector<BoxHierarchy::Node> make_box_nodes(std::span<const MortonEntry> sorted,
-                                               std::span<const BoxHierarchy::Box> boxes);
+/// The box around some corners' triangle.
+inline BoxHierarchy::Box triangle_box(std::span<const Vec3> corners, const Triangle& t) {
+  const Vec3 &p = corners[t[0]], &q = corners[t[1]], &r = corners[t[2]];
+  return {min(p, min(q, r)), max(p, max(q, r))};
 }
 
-template <class BoxOf, class Place>
-BoxHierarchy make_box_hierarchy(std::size_t count, const BoxOf& box, const Place& place, StageWatch& watch) {
-  const std::vector<MortonEntry> sorted = morton_order(count, place, watch);
-  BoxHierarchy tree;
-  tree.order.resize(count);
-  std::vector<BoxHierarchy::Box> boxes(count);  // side by side for the leaves
-  parallel_for(static_cast<std::int64_t>(count), 8192, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      tree.order[i] = sorted[i].index;
-      boxes[i] = box(sorted[i].index);
-    }
-  });
-  if (count > 0) tree.nodes = detail::make_box_nodes(sorted, boxes);
-  watch.step(0);
-  return tree;
-}
+/// Over things 0 to count - 1, of which each leaf has so many at most; box(i) holds thing i, and `bounds` all of them.
+/// O(n), on all threads.
+BoxHierarchy make_box_hierarchy(std::size_t count, std::uint32_t leaf_size, const Box3& bounds,
+                                const std::function<BoxHierarchy::Box(std::size_t)>& box, StageWatch& watch);
 
-/// Over a soup's triangles, in the soup's own floats: the boxes hold their triangles exactly.
-BoxHierarchy make_triangle_hierarchy(const TriangleSoup& soup, StageWatch& watch);
+/// Over triangles, in the floats of their corners: the boxes hold their triangles exactly.
+BoxHierarchy make_box_hierarchy(std::span<const Triangle> triangles, std::span<const Vec3> corners, StageWatch& watch);
 
 }  // namespace tetsoup

@@ -9,7 +9,7 @@
 namespace tetsoup {
 namespace {
 
-constexpr double kCodeRange = 8000;  // Morton codes tell an eighth of a unit up to 8191.
+constexpr double kCodeRange = kMortonRange;
 
 }  // namespace
 

@@ -27,7 +27,7 @@ void join_at_vertices(const TriangleSoup& soup, std::span<const std::uint32_t> p
 class Joiner {
  public:
   Joiner(const TriangleSoup& soup, std::span<const std::uint32_t> parts, double near, Unions& sets, StageWatch& watch)
-      : parts_(parts), near_(near), sets_(sets), watch_(watch), tree_(make_triangle_hierarchy(soup, watch)) {
+      : parts_(parts), near_(near), sets_(sets), watch_(watch), tree_(make_box_hierarchy(soup.triangles, soup.vertices, watch)) {
     node_parts_.assign(tree_.nodes.size(), kMixed);
     corners_.reserve(tree_.order.size());
     for (const std::uint32_t t : tree_.order) corners_.push_back(corners_of(soup, t));
@@ -144,7 +144,7 @@ std::vector<std::uint32_t> part_inside(const TriangleSoup& soup, std::span<const
                                        StageWatch& watch) {
   std::vector<std::uint32_t> around(groups.size(), kNoPart);
   if (std::all_of(is_closed.begin(), is_closed.end(), [](std::uint8_t closed) { return closed == 0; })) return around;
-  const BoxHierarchy tree = make_triangle_hierarchy(soup, watch);
+  const BoxHierarchy tree = make_box_hierarchy(soup.triangles, soup.vertices, watch);
   const std::vector<BoxHierarchy::Box> boxes = part_boxes(soup, part_of_triangle, groups.size());
   std::vector<std::uint32_t> vertex(groups.size(), kNoPart);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) vertex[part_of_triangle[t]] = soup.triangles[t][0];

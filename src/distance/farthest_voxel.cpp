@@ -20,7 +20,7 @@ struct Block {
 
 class Search {
  public:
-  Search(const TriangleTree& tree, const GridFrame& frame) : tree_(tree) {
+  Search(const NearestSquared& nearest, const GridFrame& frame) : nearest_(nearest) {
     for (std::size_t i = 0; i < 3; ++i) end_[i] = frame.size[i] - frame.pad;
     const int pad = frame.pad;
     for (int z = pad; z < end_[2]; z += kFirstBlock)
@@ -49,7 +49,7 @@ class Search {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
         const std::array<float, 3> c = centre(found_[i]);
         const float bound = found_[i].bound < kFar ? found_[i].bound * found_[i].bound : kFar;
-        squares[i] = tree_.nearest_squared(c[0], c[1], c[2], bound);
+        squares[i] = nearest_(c[0], c[1], c[2], bound);
       }
     });
     for (std::size_t i = 0; i < found_.size(); ++i) {
@@ -92,7 +92,7 @@ class Search {
     }
   }
 
-  const TriangleTree& tree_;
+  const NearestSquared& nearest_;
   std::array<int, 3> end_{};
   std::vector<Block> found_;  ///< Not measured yet.
   std::priority_queue<Block> open_;
@@ -101,8 +101,8 @@ class Search {
 
 }  // namespace
 
-float farthest_voxel_squared(const TriangleTree& tree, const GridFrame& frame, StageWatch& watch) {
-  return Search(tree, frame).run(watch);
+float farthest_voxel_squared(const NearestSquared& nearest, const GridFrame& frame, StageWatch& watch) {
+  return Search(nearest, frame).run(watch);
 }
 
 }  // namespace tetsoup

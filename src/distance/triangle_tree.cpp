@@ -4,45 +4,20 @@
 #include <array>
 
 #include "base/require.h"
+#include "kernel/triangle_distance.h"
 
 namespace tetsoup {
-namespace {
+TriangleTree::TriangleTree(std::span<const Triangle> triangles, std::span<const Vec3> corners, StageWatch& watch)
+    : triangles_(triangles), corners_(corners), tree_(make_box_hierarchy(triangles, corners, watch)) {}
 
-/// A box is skipped only if it is farther than the best by more than rounding, so that no exact nearest is lost.
-constexpr float kSlack = 1.0F + 0x1p-14F;
-constexpr float kSlackAbsolute = 1e-6F;  // voxels squared
-
-float squared_distance_to(const BoxHierarchy::Node& node, float x, float y, float z) {
-  const float dx = std::max({node.lo.x - x, x - node.hi.x, 0.0F});
-  const float dy = std::max({node.lo.y - y, y - node.hi.y, 0.0F});
-  const float dz = std::max({node.lo.z - z, z - node.hi.z, 0.0F});
-  return dx * dx + dy * dy + dz * dz;
-}
-
-}  // namespace
-
-TriangleTree::TriangleTree(const SoupFeatures& features, StageWatch& watch) : features_(features) {
-  const auto corner = [&](std::size_t i, std::size_t k) -> const Vec3& {
-    return features.corners[features.triangles[i][k]];
-  };
-  const auto centre = [&](std::size_t i) {
-    const Vec3 &p = corner(i, 0), &q = corner(i, 1), &r = corner(i, 2);
-    return Vec3{(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3, (p.z + q.z + r.z) / 3};
-  };
-  const auto box = [&](std::size_t i) {
-    const Vec3 &p = corner(i, 0), &q = corner(i, 1), &r = corner(i, 2);
-    return BoxHierarchy::Box{min(p, min(q, r)), max(p, max(q, r))};
-  };
-  tree_ = make_box_hierarchy(features.triangles.size(), box, centre, watch);
-}
-
-float TriangleTree::squared_distance(std::size_t triangle, float x, float y, float z) const {
-  const auto [a, b, c] = features_.triangles[triangle];
-  const Vec3 &p = features_.corners[a], &q = features_.corners[b], &r = features_.corners[c];
-  return kernel::squared_distance({{p, q, r},
-                                   {kernel::plan_edge(p, q), kernel::plan_edge(q, r), kernel::plan_edge(p, r)},
-                                   features_.faces[triangle]},
-                                  x, y, z);
+/// Planned anew each time: plans of all triangles would take more memory than all else. Some value not below `bound` if
+/// the triangle's box says so.
+float TriangleTree::squared_distance(std::size_t triangle, float x, float y, float z, float bound) const {
+  const auto [lo, hi] = triangle_box(corners_, triangles_[triangle]);
+  const float to_box = squared_distance_to(lo, hi, x, y, z);
+  if (to_box > bound * kSlack + kSlackAbsolute) return to_box;
+  const auto [a, b, c] = triangles_[triangle];
+  return kernel::squared_distance(kernel::plan_triangle(corners_[a], corners_[b], corners_[c]), x, y, z);
 }
 
 float TriangleTree::nearest_squared(float x, float y, float z, float bound) const {
@@ -53,7 +28,9 @@ float TriangleTree::nearest_squared(float x, float y, float z, float bound) cons
   std::array<Pending, BoxHierarchy::kMaxDepth> stack;
   std::size_t depth = 0;
   float best = bound;
-  const auto look = [&](std::uint32_t node) { return Pending{node, squared_distance_to(tree_.nodes[node], x, y, z)}; };
+  const auto look = [&](std::uint32_t node) {
+    return Pending{node, squared_distance_to(tree_.nodes[node].lo, tree_.nodes[node].hi, x, y, z)};
+  };
   Pending at = look(0);
   for (;;) {
     if (at.square <= best * kSlack + kSlackAbsolute) {
@@ -67,7 +44,7 @@ float TriangleTree::nearest_squared(float x, float y, float z, float bound) cons
         continue;
       }
       for (std::uint32_t i = node.next; i < node.next + node.count; ++i)
-        best = std::min(best, squared_distance(tree_.order[i], x, y, z));
+        best = std::min(best, squared_distance(tree_.order[i], x, y, z, best));
     }
     if (depth == 0) return best;
     at = stack[--depth];
