@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kSliver = 0.25;  ///< Of a tet.
 constexpr double kCrumb = 3;      ///< Voxels.
+/// Of the fullest tet around: what holds so much stays, since no tet there can hold more. Without it a plate, which has
+/// no hole to lose, is carved from its rim into strings.
+constexpr double kOfFullest = 0.5;
 
 class Carver {
  public:
@@ -29,6 +32,7 @@ class Carver {
     for (std::uint32_t t = 0; t < complex.tet_count(); ++t)
       for (std::size_t i = 0; i < 4 && complex.is_kept(t); ++i)
         if (!complex.is_kept(complex.neighbour(t, i))) count_face(t, i, 1);
+    find_fullest();
   }
 
   void run(StageWatch& watch) {
@@ -51,8 +55,24 @@ class Carver {
       if (k != face) open_faces_[complex_.corners(t)[k]] += by;
   }
 
+  /// Of every vertex, the density of the fullest tet at it.
+  void find_fullest() {
+    fullest_.assign(complex_.vertex_count(), 0);
+    for (std::uint32_t t = 0; t < complex_.tet_count(); ++t)
+      for (std::size_t i = 0; i < 4 && complex_.is_kept(t); ++i) {
+        float& most = fullest_[complex_.corners(t)[i]];
+        most = std::max(most, static_cast<float>(complex_.density(t)));
+      }
+  }
+  /// Whether a tet is as full as can be expected there.
+  bool is_full(std::uint32_t t) const {
+    double most = 0;
+    for (const std::uint32_t v : complex_.corners(t)) most = std::max(most, static_cast<double>(fullest_[v]));
+    return complex_.density(t) >= std::min(limit_, kOfFullest * most);
+  }
+
   void enqueue(std::uint32_t t) {
-    if (!complex_.is_kept(t) || complex_.is_held(t) || is_queued_[t] || complex_.density(t) >= limit_) return;
+    if (!complex_.is_kept(t) || complex_.is_held(t) || is_queued_[t] || is_full(t)) return;
     is_queued_[t] = 1;
     queue_.push({complex_.density(t), t});
   }
@@ -117,6 +137,7 @@ class Carver {
   double limit_;
   double crumb_;  ///< Volume.
   Reach reach_;
+  std::vector<float> fullest_;
   std::vector<int> open_faces_;  ///< Of every vertex: faces of the boundary at it.
   std::vector<std::uint8_t> is_queued_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;  ///< The emptiest first.
