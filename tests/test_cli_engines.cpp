@@ -110,6 +110,13 @@ TEST_F(Tool, refuses_what_an_engine_cannot_be_given_before_any_work) {
   EXPECT_EQ(files(), (Words{"cube.obj", "taken.bou"}));
 }
 
+TEST_F(Tool, a_line_break_in_a_files_name_does_not_become_a_card_of_calculix) {
+  const Outcome outcome = run({"mesh", "cube.obj", "-o", "a\n*STEP", "--for", "calculix", "--cells", "2"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  expect_error_line(outcome, {"CalculiX", "line break"});
+  EXPECT_EQ(files(), Words{"cube.obj"});
+}
+
 TEST_F(Tool, a_run_that_fails_in_the_end_leaves_none_of_an_engines_files_but_what_stood_there) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
   write_text(in_folder("body.bou"), "mine");

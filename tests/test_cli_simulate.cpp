@@ -1,5 +1,6 @@
 // `tetsoup simulate`, run as a user runs it.
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "run_tool.h"
 
@@ -108,6 +109,32 @@ TEST_F(SimulateTool, what_ctrl_c_stops_can_go_on) {
   EXPECT_EQ(rest.at("resumed_after"), done);
   EXPECT_EQ(rest.at("frames"), done + 5);
   EXPECT_EQ(rest.at("state_hash"), report({"box.json", "--seconds", seconds}).at("state_hash"));
+}
+
+TEST_F(SimulateTool, a_folder_without_its_state_or_a_frame_does_not_go_on) {
+  report({"box.json", "-o", "dir", "--seconds", "0.2"});
+  fs::rename(in_folder("dir") / "frame_0005.vtu", in_folder("dir") / "elsewhere");
+  expect_error({"simulate", "box.json", "-o", "dir", "--resume"}, 3, {"frame_0005.vtu", "missing"});
+  fs::rename(in_folder("dir") / "elsewhere", in_folder("dir") / "frame_0005.vtu");
+  fs::remove(in_folder("dir") / "state.bin");
+  expect_error({"simulate", "box.json", "-o", "dir", "--resume", "--seconds", "0.05"}, 3, {"state.bin", "missing"});
+  EXPECT_EQ(frames_of("dir").size(), 13U);
+  fs::remove(in_folder("dir") / "frames.json");
+  expect_error({"simulate", "box.json", "-o", "dir", "--resume", "--seconds", "0.05"}, 3, {"state.bin", "missing"});
+  EXPECT_TRUE(fs::exists(in_folder("dir") / "frame_0012.vtu"));
+}
+
+TEST_F(SimulateTool, a_run_killed_early_can_go_on_and_leaves_no_stale_frames) {
+  const std::string tool = std::string("cd ") + in_folder("").string() + " && timeout -s KILL 2 " + TETSOUP_CLI +
+                           " simulate box.json -o part --seconds 3600 2> err.txt";
+  std::ignore = std::system(tool.c_str());
+  ASSERT_TRUE(fs::exists(in_folder("part") / "frame_0004.vtu")) << "killed too early to tell";
+  report({"box.json", "-o", "part", "--resume", "--seconds", "0.05"});
+  EXPECT_EQ(frames_of("part").size(), 4U);
+  EXPECT_FALSE(fs::exists(in_folder("part") / "frame_0004.vtu"));
+  report({"box.json", "-o", "whole", "--seconds", "0.05"});
+  EXPECT_EQ(frames_of("part"), frames_of("whole"));
+  EXPECT_EQ(read_text(in_folder("part") / "frame_0003.vtu"), read_text(in_folder("whole") / "frame_0003.vtu"));
 }
 
 TEST_F(SimulateTool, ctrl_c_without_a_folder_leaves_nothing) {

@@ -64,6 +64,31 @@ class Studio : public test::Tool {
     return client.Get(path, headers);
   }
 
+  /// A connection on which that has been said.
+  int connected(const std::string& text) const {
+    const int connection = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port_));
+    inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
+    EXPECT_EQ(connect(connection, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(send(connection, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
+    return connection;
+  }
+  /// All that is answered until the other side ends it.
+  std::string said_to(const std::string& text) const {
+    const int connection = connected(text);
+    std::string answer(4096, '\0');
+    std::size_t size = 0;
+    for (ssize_t count = 1; count > 0 && size < answer.size();) {
+      count = recv(connection, answer.data() + size, answer.size() - size, 0);
+      if (count > 0) size += static_cast<std::size_t>(count);
+    }
+    close(connection);
+    answer.resize(size);
+    return answer;
+  }
+
   std::string said_;
   int port_ = 0;
 
@@ -108,6 +133,79 @@ TEST_F(Studio, a_model_is_offered_under_its_own_name) {
   EXPECT_EQ(model->status, 200);
   EXPECT_EQ(model->body, test::kCube);
   EXPECT_EQ(get("/model/other.obj")->status, 404);
+}
+
+TEST_F(Studio, links_and_ends_of_strings_in_a_path_lead_nowhere) {
+  std::filesystem::create_symlink(in_folder("secret.txt"), in_folder("page/link.txt"));
+  std::filesystem::create_directory_symlink(in_folder(""), in_folder("page/up"));
+  serve({});
+  for (const char* path : {"/link.txt", "/up/secret.txt"}) EXPECT_EQ(get(path)->status, 404) << path;
+  for (const char* path :
+       {"/index.html%00", "/assets/app.js%00.css", "/assets%0aapp.js", "/assets%5capp.js", "/%zz", "/%"})
+    EXPECT_EQ(get(path)->status, 400) << path;
+  EXPECT_EQ(get("/index.html?%00")->status, 200);
+}
+
+TEST_F(Studio, the_page_may_load_nothing_but_its_own) {
+  serve({});
+  const std::string policy = get("/")->get_header_value("Content-Security-Policy");
+  for (const char* part : {"default-src 'self'", "'wasm-unsafe-eval'", "object-src 'none'", "frame-ancestors 'none'"})
+    EXPECT_NE(policy.find(part), policy.npos) << policy;
+  EXPECT_EQ(policy.find("'unsafe-eval'"), policy.npos) << policy;
+}
+
+TEST_F(Studio, a_thousand_ranges_are_the_file_once) {
+  const std::string megabyte(std::size_t{1} << 20, 'x');
+  test::write_text(in_folder("page/large.txt"), megabyte);
+  serve({});
+  std::string ranges = "bytes=0-";
+  for (int i = 0; i < 1000; ++i) ranges += ",0-";
+  const auto answer = get("/large.txt", {{"Range", ranges}});
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
+  EXPECT_EQ(answer->body, megabyte);
+  EXPECT_EQ(get("/large.txt", {{"Range", "bytes=99999999999999999999-"}})->status, 200);
+}
+
+TEST_F(Studio, bodies_are_refused_before_they_are_sent) {
+  serve({});
+  const std::string at = "/ HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port_) + "\r\n";
+  EXPECT_TRUE(said_to("POST " + at + "Content-Length: 99999999999\r\n\r\n").starts_with("HTTP/1.1 405"));
+  EXPECT_TRUE(said_to("GET " + at + "Content-Length: 99999999999\r\n\r\n").starts_with("HTTP/1.1 413"));
+  EXPECT_TRUE(said_to("GET " + at + "Transfer-Encoding: chunked\r\n\r\n").starts_with("HTTP/1.1 413"));
+}
+
+TEST_F(Studio, heads_that_are_none_are_refused) {
+  serve({});
+  const std::string host = "Host: 127.0.0.1:" + std::to_string(port_) + "\r\n";
+  const auto code = [&](const std::string& text) { return said_to(text).substr(0, 12); };
+  EXPECT_EQ(code("GET / HTTP/1.1\r\n" + host + "X: " + std::string(9000, 'x') + "\r\n\r\n"), "HTTP/1.1 431");
+  EXPECT_EQ(code("GET / HTTP/1.1\r\n" + host + host + "\r\n"), "HTTP/1.1 400");
+  EXPECT_EQ(code("GET / HTTP/1.1\r\n\r\n"), "HTTP/1.1 400");
+  EXPECT_EQ(code("GET / HTTP/1.1\r\n" + host + "none\r\n\r\n"), "HTTP/1.1 400");
+  EXPECT_EQ(code("GET / HTTP/9\r\n" + host + "\r\n"), "HTTP/1.1 505");
+  EXPECT_EQ(code("hello\r\n\r\n"), "HTTP/1.1 400");
+  const std::string head = said_to("HEAD / HTTP/1.1\r\n" + host + "\r\n");
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 200") && head.ends_with("\r\n\r\n")) << head;
+}
+
+TEST_F(Studio, those_who_only_wait_keep_nobody_out) {
+  serve({});
+  std::vector<int> slow;
+  for (int i = 0; i < 300; ++i) slow.push_back(connected("GET / HT"));
+  const auto start = std::chrono::steady_clock::now();
+  const auto page = get("/");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->status, 200);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
+  for (const int one : slow) close(one);
+}
+
+TEST_F(Studio, whoever_does_not_end_a_head_is_cut_off) {
+  serve({});
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(said_to("GET / HT"), "");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(9));
 }
 
 TEST_F(Studio, pages_of_other_hosts_cannot_ask) {

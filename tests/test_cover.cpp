@@ -190,6 +190,34 @@ TEST(Cover, boxes_with_a_slit_of_a_third_of_a_cell_are_two_unless_asked_for_toge
   EXPECT_EQ(measure_quality(fill(s, o).mesh).components, 1U);
 }
 
+TEST(TetLocator, slivers_as_long_as_the_body_and_flat_tets_take_no_more_than_their_share) {
+  // Needles along the diagonal of a cube: each box is all of it.
+  TetMesh mesh;
+  test::Random random(5);
+  for (std::uint32_t t = 0; t < 300; ++t) {
+    const auto near = [&](float at) {
+      const auto c = [&] { return at + 0.01F * static_cast<float>(random.uniform(-1, 1)); };
+      mesh.vertices.push_back({c(), c(), c()});
+    };
+    for (const float at : {0.0F, 0.0F, 0.0F, 1.0F}) near(at);
+    Tet tet{4 * t, 4 * t + 1, 4 * t + 2, 4 * t + 3};
+    if (signed_volume(corners_of(mesh, tet)) < 0) std::swap(tet[0], tet[1]);
+    mesh.tets.push_back(tet);
+  }
+  const std::size_t needles = mesh.tets.size();
+  for (std::size_t t = 0; t < needles; ++t)
+    mesh.tets.push_back({mesh.tets[t][0], mesh.tets[t][1], mesh.tets[t][2], mesh.tets[t][0]});
+  const TetLocator locator(mesh);
+  EXPECT_LE(locator.entry_count(), 250 * needles);
+  for (std::uint32_t t = 0; t < needles; ++t) {
+    Vec3d middle;
+    for (const Vec3d& corner : corners_of(mesh, mesh.tets[t])) middle += corner * 0.25;
+    bool found = false;
+    locator.visit_holders(middle, [&](std::uint32_t holder) { found = found || holder == t; });
+    EXPECT_TRUE(found) << t;
+  }
+}
+
 TEST(TetLocator, finds_the_tets_that_hold_a_point) {
   const TetMesh mesh = block_mesh({4, 3, 2}, 0.7);
   const TetLocator locator(mesh);

@@ -12,9 +12,11 @@
 #include <cstdio>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <string>
 
 #include "commands.h"
+#include "files.h"
 #include "help.h"
 #include "interrupt.h"
 #include "tetsoup/error.h"
@@ -56,12 +58,24 @@ int fail(int code, std::string text) {
   return code;
 }
 
+/// What is asked for and cannot be written is an error, as it is for reports.
+int show(const std::string& text, int code = 0) {
+  try {
+    write_stdout(text);
+    return code;
+  } catch (const IoError& error) {
+    return fail(kExitFile, error.what());
+  }
+}
+
 int parse_and_run(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::Success& help_or_version) {
-    return app.exit(help_or_version);
+    std::ostringstream text, unused;
+    const int code = app.exit(help_or_version, text, unused);
+    return show(text.str(), code);
   } catch (const CLI::ParseError& error) {
     return fail(kExitUsage, describe_usage_error(app, error));
   } catch (const InvalidInput& error) {
@@ -93,8 +107,7 @@ int run(int argc, char** argv) {
   add_simulate_command(app);
   add_studio_command(app);
   if (argc <= 1) {
-    fmt::print("{}", kShortHelp);
-    return 0;
+    return show(kShortHelp);
   }
   catch_interrupts();
   return parse_and_run(app, argc, argv);

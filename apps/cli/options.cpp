@@ -61,7 +61,8 @@ void add_volume_flags(CLI::App& app, PseudoVolumeOptions& options) {
   CLI::Option* const k = add_flag(
       app, "--k", "auto|X",
       [&options](const std::string& text) {
-        if (text != "auto") options.k = parse_number("--k", text, {0, 1, true, true, "auto, or a number from 0 to 1"});
+        if (text != "auto")
+          options.k = parse_number("--k", text, {0, 1, false, true, "auto, or a number above 0, at most 1"});
       },
       "Event threshold in (0, 1]: 1 counts surface crossings, less\nbridges gaps between triangles (auto)");
   CLI::Option* const voxels = add_flag(

@@ -54,6 +54,28 @@ std::uint64_t parse_hash(const std::string& words) {
   return std::stoull(words, nullptr, 16);
 }
 
+/// The number in frame_0012.vtu and preview_0012.png; none of other names.
+std::optional<std::size_t> number_in(const fs::path& path) {
+  constexpr std::size_t kMostDigits = 9;
+  const std::string stem = path.stem().string(), extension = path.extension().string();
+  const std::string start = extension == ".vtu" ? "frame_" : "preview_";
+  if ((extension != ".vtu" && extension != ".png") || !stem.starts_with(start)) return {};
+  const std::string digits = stem.substr(start.size());
+  if (digits.size() < 4 || digits.size() > kMostDigits || digits.find_first_not_of("0123456789") != digits.npos)
+    return {};
+  return std::stoul(digits);
+}
+
+/// Whether there is more than the beginning of a simulation, which any run writes again.
+bool holds_frames(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (number_in(entry.path()).value_or(0) > 0) return true;
+  if (!fs::exists(folder / "frames.json", ignored)) return false;
+  const Json json = Json::parse(read_text(folder / "frames.json"), nullptr, false);
+  return !json.is_object() || !json.contains("frames") || json["frames"].size() > 1;
+}
+
 }  // namespace
 
 std::string hash_words(std::uint64_t hash) {
@@ -73,7 +95,11 @@ SimulationFolder::SimulationFolder(fs::path path, const Scene& scene, bool resum
 }
 
 void SimulationFolder::resume(LoadedScene& loaded) {
-  if (!fs::exists(path_ / "state.bin")) return;
+  if (!fs::exists(path_ / "state.bin")) {
+    if (!holds_frames(path_)) return;
+    throw IoError((path_ / "state.bin").string() +
+                  ": it is missing, without it the simulation cannot go on; start anew in another folder");
+  }
   const Scene before = read_scene(path_ / "scene.json");
   if (text_to_compare(before) != text_to_compare(parse_scene(scene_text_, {})))
     throw IoError(path_.string() + ": this is the folder of another scene, or of other options; name another folder");
@@ -98,6 +124,26 @@ void SimulationFolder::resume(LoadedScene& loaded) {
   }
   if (frames_.size() != loaded.frame + 1 || frames_.back().state_hash != loaded.simulation.state_hash())
     throw IoError(path_.string() + ": state.bin and frames.json are of different runs; start anew in another folder");
+  check_frame_files();
+  remove_later_files();
+  if (loaded.frame == 0) frames_.clear();  // The beginning is written again: a run may have ended before it was.
+}
+
+void SimulationFolder::check_frame_files() const {
+  if (frames_.size() == 1) return;
+  for (const FrameRecord& frame : frames_) {
+    const fs::path file = path_ / fmt::format("frame_{:04}.vtu", frame.frame);
+    if (!fs::exists(file)) throw IoError(file.string() + ": it is missing; start anew in another folder");
+  }
+}
+
+/// What a run wrote after its last state, or the frames of two runs would lie side by side.
+void SimulationFolder::remove_later_files() const {
+  std::vector<fs::path> later;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path_, ignored))
+    if (number_in(entry.path()).value_or(0) >= frames_.size()) later.push_back(entry.path());
+  for (const fs::path& path : later) fs::remove(path, ignored);
 }
 
 void SimulationFolder::save(const LoadedScene& loaded, const std::optional<Box3>& view) const {

@@ -27,8 +27,9 @@ class SimulationFolder {
   /// @throws IoError  if it cannot be a folder, or holds a simulation that is not to be continued.
   SimulationFolder(std::filesystem::path path, const Scene& scene, bool resume);
 
-  /// Brings the scene to where the folder's simulation stands; at its start where there is none.
-  /// @throws IoError  if the folder is of another scene, or damaged.
+  /// Brings the scene to where the folder's simulation stands; at its start where there is none. Files of later frames
+  /// are removed.
+  /// @throws IoError  if the folder is of another scene or damaged, or the state or a frame is missing.
   void resume(LoadedScene& loaded);
 
   void add(const FrameRecord& record) { frames_.push_back(record); }
@@ -41,6 +42,9 @@ class SimulationFolder {
   const std::optional<Box3>& view() const { return view_; }
 
  private:
+  void check_frame_files() const;
+  void remove_later_files() const;
+
   std::filesystem::path path_;
   std::vector<FrameRecord> frames_;
   std::optional<Box3> view_;

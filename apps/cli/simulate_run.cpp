@@ -47,6 +47,8 @@ class Player {
     action();
     seconds += watch.seconds();
   }
+  void begin();
+  void note_frame();
   void record();
   void save() {
     if (folder_) timed(run.seconds.write, [&] { folder_->save(loaded_, view_or_before()); });
@@ -77,13 +79,25 @@ Player::Player(const SimulateOptions& options, LoadedScene& loaded, ProgressBar&
   if (folder_ && !folder_->frames().empty())
     run.state_hash = loaded.simulation.state_hash();
   else
-    record();
+    begin();
+}
+
+/// The state comes before the frame: whatever ends this run from here on, another can go on with the folder.
+void Player::begin() {
+  run.state_hash = loaded_.simulation.state_hash();
+  note_frame();
+  save();
+  timed(run.seconds.write, [&] { files_->add_frame(run.state_hash); });
+}
+
+void Player::note_frame() {
+  if (folder_) folder_->add({loaded_.frame, static_cast<double>(loaded_.frame) / loaded_.scene.fps, run.state_hash});
 }
 
 void Player::record() {
   run.state_hash = loaded_.simulation.state_hash();
   timed(run.seconds.write, [&] { files_->add_frame(run.state_hash); });
-  if (folder_) folder_->add({loaded_.frame, static_cast<double>(loaded_.frame) / loaded_.scene.fps, run.state_hash});
+  note_frame();
 }
 
 void Player::play() {

@@ -46,7 +46,10 @@ bool Watch::call(std::string_view stage, double fraction) {
     if (PyErr_CheckSignals() != 0) nb::raise_python_error();
     if (callback_.is_none()) return true;
     const nb::object answer = callback_(nb::str(stage.data(), stage.size()), fraction);
-    return answer.is_none() || nb::cast<bool>(answer.attr("__bool__")());
+    if (answer.is_none()) return true;
+    const int truth = PyObject_IsTrue(answer.ptr());  // Not __bool__(), which strings and lists have not.
+    if (truth < 0) nb::raise_python_error();
+    return truth != 0;
   } catch (nb::python_error& error) {
     raised_.emplace(error);
     return false;

@@ -231,6 +231,23 @@ def test_wrong_input_to_an_embedding_is_a_value_error(torus, tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["bad.embedding"]
 
 
+def test_a_progress_callback_answers_by_truth_of_any_kind(torus):
+    vertices, faces = tetsoup.sample("torus")
+    for yes in ("go on", [1], 2.5, None):
+        torus.embed(vertices, faces, progress=lambda *_, yes=yes: yes)
+    for no in ("", [], 0):
+        with pytest.raises(tetsoup.Cancelled):
+            torus.embed(vertices, faces, progress=lambda *_, no=no: no)
+
+
+def test_arrays_of_no_memory_and_endless_rows_are_refused():
+    points = np.zeros((3, 3), np.float32)
+    for dtype in (np.int32, np.uint32):
+        endless = np.lib.stride_tricks.as_strided(np.zeros(3, dtype), (2**33, 3), (0, dtype().itemsize))
+        with pytest.raises(tetsoup.InvalidInput, match="faces has 8589934592 rows"):
+            tetsoup.mesh(points, endless)
+
+
 def test_embedding_reports_progress_and_is_cancelled(torus):
     vertices, faces = tetsoup.sample("torus")
     seen = []

@@ -47,6 +47,7 @@ def as_points(values: Any, name: str) -> Points:
 
 def as_rows(values: Any, name: str, columns: int) -> Points:
     array = _as_array(values, name)
+    _check_rows(array, name)
     if array.size == 0:
         array = array.reshape(0, columns).astype(np.float32)
     if array.dtype.kind not in "fiu":
@@ -59,6 +60,7 @@ def as_rows(values: Any, name: str, columns: int) -> Points:
 
 def as_indices(values: Any, name: str, columns: int) -> Faces:
     array = _as_array(values, name)
+    _check_rows(array, name)
     if array.size == 0:
         return np.empty((0, columns), np.uint32)
     if array.dtype.kind not in "iu":
@@ -106,6 +108,12 @@ def _as_array(values: Any, name: str) -> npt.NDArray[Any]:
         return np.asarray(values)
     except (TypeError, ValueError, RuntimeError) as error:
         raise _core.InvalidInput(f"{name} cannot be made an array: {error}") from error
+
+
+def _check_rows(array: npt.NDArray[Any], name: str) -> None:
+    """Before anything is copied: an array of stride 0 has any number of rows in no memory."""
+    if array.ndim > 0 and array.shape[0] >= NO_VERTEX:
+        raise _core.InvalidInput(f"{name} has {array.shape[0]} rows, must have fewer than 2^32 - 1")
 
 
 def _take_apart(source: Any) -> tuple[Any, Any]:

@@ -11,6 +11,8 @@ constexpr double kBucketsPerTet = 2;
 constexpr double kBucketShare = 0.375;
 /// Flat and empty meshes would have no end of buckets along their sides.
 constexpr double kMostBucketsPerTet = 16;
+/// Ordinary tets reach into some 50 buckets; those of slivers as long as the body would be no end of them.
+constexpr double kMostReachedPerTet = 250;
 
 /// About the edge of the largest tet.
 double tet_edge_of(const Vec3d& size, double largest_volume, double tet_count) {
@@ -22,6 +24,35 @@ double tet_edge_of(const Vec3d& size, double largest_volume, double tet_count) {
   const auto buckets = [&] { return (size.x / edge + 1) * (size.y / edge + 1) * (size.z / edge + 1); };
   while (buckets() > kMostBucketsPerTet * (tet_count + 1)) edge *= 2;
   return edge;
+}
+
+struct Box {
+  Vec3d lo, hi;
+};
+
+/// Of the tets that hold something.
+std::vector<Box> boxes_of(const TetMesh& mesh) {
+  std::vector<Box> boxes;
+  boxes.reserve(mesh.tets.size());
+  for (const Tet& tet : mesh.tets) {
+    const TetCorners p = corners_of(mesh, tet);
+    if (signed_volume(p) > 0)
+      boxes.push_back({min(min(p[0], p[1]), min(p[2], p[3])), max(max(p[0], p[1]), max(p[2], p[3]))});
+  }
+  return boxes;
+}
+
+/// The bucket's edge, raised until the tets' boxes reach into few enough of them.
+double with_few_reached(double edge, const std::vector<Box>& boxes) {
+  const double most = kMostReachedPerTet * static_cast<double>(boxes.size());
+  for (;; edge *= 2) {
+    double reached = 0;
+    for (const Box& box : boxes) {
+      const Vec3d cells = (box.hi - box.lo) * (1 / edge);
+      reached += (cells.x + 1) * (cells.y + 1) * (cells.z + 1);
+    }
+    if (!(reached > most)) return edge;
+  }
 }
 
 }  // namespace
@@ -39,7 +70,7 @@ TetLocator::TetLocator(const TetMesh& mesh, double on_face) {
     }
   }
   const double tet_edge = tet_edge_of(hi - lo, volume, static_cast<double>(mesh.tets.size()));
-  edge_ = tet_edge * kBucketShare;
+  edge_ = with_few_reached(tet_edge * kBucketShare, boxes_of(mesh));
   origin_ = lo;
   const auto last = bucket_of(hi);
   for (std::size_t i = 0; i < 3; ++i) count_[i] = last[i] + 1;
@@ -62,6 +93,7 @@ TetLocator::TetLocator(const TetMesh& mesh, double on_face) {
   tets_ = Groups<std::uint32_t>(number_of({count_[0] - 1, count_[1] - 1, count_[2] - 1}) + 1, [&](const auto& put) {
     for (std::uint32_t t = 0; t < mesh.tets.size(); ++t) {
       const TetCorners p = corners_of(mesh, mesh.tets[t]);
+      if (!(signed_volume(p) > 0)) continue;
       const auto first = bucket_of(min(min(p[0], p[1]), min(p[2], p[3])));
       const auto end = bucket_of(max(max(p[0], p[1]), max(p[2], p[3])));
       for (int z = first[2]; z <= end[2]; ++z)

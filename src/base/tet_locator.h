@@ -15,7 +15,8 @@ class TetLocator {
   /// Edges of the largest tet: single-precision vertices put a point on a face up to this far outside.
   static constexpr double kOnFace = 1e-5;
 
-  /// Indices are valid and vertices finite; tets that are flat or inverted hold nothing. O(tets).
+  /// Indices are valid and vertices finite; tets that are flat or inverted hold nothing. O(tets), of
+  /// any shape.
   explicit TetLocator(const TetMesh& mesh, double on_face = kOnFace);
 
   /// visit(tet) for every tet that holds the point or has it on its faces, in ascending order.
@@ -27,6 +28,8 @@ class TetLocator {
     for (const std::uint32_t t : tets_[number_of(bucket)])
       if (holds(t, point)) visit(t);
   }
+  /// Of tets in buckets: what the memory is for.
+  std::size_t entry_count() const { return tets_.items().size(); }
   bool holds(std::uint32_t tet, const Vec3d& point) const {
     for (const Plane& plane : planes_[tet])
       if (dot(plane.normal, point) + plane.offset < 0) return false;

@@ -5,6 +5,7 @@
 #include "io/engines/scene_parts.h"
 #include "io/line_writer.h"
 #include "io/model_parts.h"
+#include "tetsoup/error.h"
 
 namespace tetsoup {
 
@@ -67,6 +68,10 @@ std::string calculix_scene(const SceneInput& input) {
   append_list(held, std::span(vertices), 1U, kPerLine, ", ");
   held.pop_back();
   const UpAxis up = input.model.up;
+  // A line of its own would be a card of its own, be it in a file's name.
+  if (std::any_of(input.mesh_file.begin(), input.mesh_file.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }))
+    throw IoError("CalculiX's scene names the mesh's file, and '" + input.mesh_file +
+                  "' has a line break or another control character in it; give the file another name");
   return filled(kScene, {{"stem", input.mesh_file.substr(0, input.mesh_file.rfind('.'))},
                          {"file", input.mesh_file},
                          {"held", held},

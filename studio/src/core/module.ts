@@ -80,7 +80,9 @@ export class Core {
   }
 
   allocate(bytes: number): number {
-    return (this.module._malloc as (n: number) => number)(bytes);
+    const pointer = (this.module._malloc as (n: number) => number)(bytes);
+    if (!pointer) throw new CoreError(kOutOfMemory, 'this does not fit into the memory of this page');
+    return pointer;
   }
 
   free(pointer: number): void {
@@ -89,14 +91,13 @@ export class Core {
 
   /** Runs `body` with texts as C has them, null staying null. */
   withTexts<T>(texts: (string | null)[], body: (...pointers: number[]) => T): T {
-    const pointers = texts.map((text) => {
-      if (text === null) return 0;
-      const size = this.module.lengthBytesUTF8(text) + 1;
-      const pointer = this.allocate(size);
-      this.module.stringToUTF8(text, pointer, size);
-      return pointer;
-    });
+    const pointers: number[] = [];
     try {
+      for (const text of texts) {
+        const size = text === null ? 0 : this.module.lengthBytesUTF8(text) + 1;
+        pointers.push(text === null ? 0 : this.allocate(size));
+        if (text !== null) this.module.stringToUTF8(text, pointers[pointers.length - 1], size);
+      }
       return body(...pointers);
     } finally {
       pointers.forEach((pointer) => pointer && this.free(pointer));
@@ -105,7 +106,6 @@ export class Core {
 
   withBytes<T>(bytes: Uint8Array, body: (pointer: number) => T): T {
     const pointer = this.allocate(Math.max(bytes.byteLength, 8));
-    if (!pointer) throw new CoreError(kOutOfMemory, 'the file does not fit into the memory of this page');
     try {
       new Uint8Array(this.buffer).set(bytes, pointer);
       return body(pointer);
