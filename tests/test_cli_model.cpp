@@ -1,6 +1,7 @@
 // The command-line tool, run as a user runs it: render surface, regions and pins.
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "run_tool.h"
 #include "tetsoup/io.h"
@@ -176,6 +177,36 @@ TEST_F(ModelTool, inspect_lists_the_parts) {
     EXPECT_NE(out.find(part), std::string::npos) << out;
   EXPECT_NE(out.find("12  box from (-1, 0, -1) to (1, 0.3, 1)"), std::string::npos) << out;
   EXPECT_EQ(run({"inspect", "cube.obj"}).out.find("part_1"), std::string::npos);
+}
+
+TEST_F(ModelTool, a_model_in_map_coordinates_is_the_same_there_and_recentred_without_the_offset) {
+  std::string text;
+  std::istringstream lines(read_text(in_folder("lamp.obj")));
+  for (std::string line; std::getline(lines, line); text += "\n") {
+    double x = 0, y = 0, z = 0;
+    std::array<char, 100> moved{};
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3)
+      std::snprintf(moved.data(), moved.size(), "v %.6f %.6f %.6f", x + 4e5, y + 512, z - 5e6);
+    text += moved[0] == 0 ? line : moved.data();
+  }
+  ASSERT_EQ(mesh({"-o", "near.json", "--pin-below", "y:0.2", "--regions", "object"}).exit_code, 0);
+  write_text(in_folder("lamp.obj"), text);
+  const Outcome there =
+      mesh({"-o", "there.json", "--json", "report.json", "--pin-below", "y:512.2", "--regions", "object"});
+  ASSERT_EQ(there.exit_code, 0) << there.err;
+  EXPECT_NE(there.out.find("--recentre"), std::string::npos);
+  ASSERT_EQ(mesh({"-o", "zero.json", "--recentre", "--pin-below", "y:512.2"}).exit_code, 0);
+  const auto json = [&](const char* name) { return Json::parse(read_text(in_folder(name))); };
+  const Json near = json("near.json"), far = json("there.json"), zero = json("zero.json"), report = json("report.json");
+  EXPECT_EQ(report["recentred"], false);
+  EXPECT_EQ(near["tets"], far["tets"]);
+  EXPECT_EQ(near["tet_regions"], far["tet_regions"]);
+  EXPECT_EQ(near["pins"], far["pins"]);
+  EXPECT_EQ(zero["pins"], far["pins"]);
+  for (std::size_t i = 0; i < far["vertices"].size(); ++i) {
+    ASSERT_NEAR(near["vertices"][i].get<double>() + std::array{4e5, 512.0, -5e6}[i % 3], far["vertices"][i], 1e-6);
+    ASSERT_EQ(zero["vertices"][i].get<double>() + report["offset"][i % 3].get<double>(), far["vertices"][i]);
+  }
 }
 
 }  // namespace

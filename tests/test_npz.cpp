@@ -66,7 +66,7 @@ TEST(Npz, what_was_written_is_read) {
   const std::string bytes = npz.take();
   const Arrays arrays = read_npz(bytes, "f");
   EXPECT_EQ(arrays.size(), 4U);  // Texts are no numbers.
-  EXPECT_EQ(npz_reals(arrays, "f", "reals", 2), reals);
+  EXPECT_EQ(npz_reals(arrays, "f", "reals", 2), std::vector<double>(reals.begin(), reals.end()));
   EXPECT_EQ(npz_indices(arrays, "f", "indices", 0), (std::vector<std::uint32_t>{0, 4294967295}));
   EXPECT_TRUE(arrays.at("one").shape.empty());
   EXPECT_TRUE(npz_reals(arrays, "f", "none", 4).empty());
@@ -93,8 +93,8 @@ TEST(NpzModel, a_plain_mesh_has_newtons_arrays_and_no_others) {
   std::string names;
   for (const auto& [name, array] : arrays) names += name + array.type + ' ';
   EXPECT_EQ(names, "density<f8 k_lambda<f4 k_mu<f4 tet_indices<i4 vertices<f4 ");
-  EXPECT_EQ(npz_reals(arrays, "f", "k_mu", 0), (std::vector<float>{4e4F, 4e4F}));
-  EXPECT_EQ(npz_reals(arrays, "f", "k_lambda", 0), (std::vector<float>{4e4F, 4e4F}));
+  EXPECT_EQ(npz_reals(arrays, "f", "k_mu", 0), (std::vector<double>{4e4F, 4e4F}));
+  EXPECT_EQ(npz_reals(arrays, "f", "k_lambda", 0), (std::vector<double>{4e4F, 4e4F}));
   const TetMesh mesh = parse_npz(bytes, "f");
   EXPECT_EQ(mesh.vertices, model.mesh.vertices);
   EXPECT_EQ(mesh.tets, model.mesh.tets);
@@ -110,12 +110,12 @@ TEST(NpzModel, the_rest_is_there_if_the_model_has_it) {
   const std::string bytes = npz_text(model);
   const Arrays arrays = read_npz(bytes, "f");
   EXPECT_EQ(npz_indices(arrays, "f", "tet_regions", 0), (std::vector<std::uint32_t>{0, 1}));
-  EXPECT_EQ(npz_reals(arrays, "f", "tet_densities", 0), (std::vector<float>{1000, 500}));
+  EXPECT_EQ(npz_reals(arrays, "f", "tet_densities", 0), (std::vector<double>{1000, 500}));
   EXPECT_EQ(npz_indices(arrays, "f", "pin_left_foot", 0), (std::vector<std::uint32_t>{0, 2}));
   EXPECT_TRUE(npz_indices(arrays, "f", "pin_left_foot_2", 0).empty());
   EXPECT_EQ(npz_indices(arrays, "f", "embedding_tets", 0), model.embedding.tets);
-  EXPECT_EQ(npz_reals(arrays, "f", "embedding_weights", 4), (std::vector<float>{1, 0, 0, 0, -1, 0, 1, 1}));
-  EXPECT_EQ(npz_reals(arrays, "f", "render_vertices", 3), (std::vector<float>{0, 0, 0, 2, 2, 2}));
+  EXPECT_EQ(npz_reals(arrays, "f", "embedding_weights", 4), (std::vector<double>{1, 0, 0, 0, -1, 0, 1, 1}));
+  EXPECT_EQ(npz_reals(arrays, "f", "render_vertices", 3), (std::vector<double>{0, 0, 0, 2, 2, 2}));
   // Once for all but what is of the tets, as Newton numbers it.
   EXPECT_EQ(npz_indices(arrays, "f", "__custom_freqs__", 0), (std::vector<std::uint32_t>{12, 12, 0, 0, 0, 0, 0, 0}));
   // One density gives the mesh its mass: volumes are 1/6 and 1/3.

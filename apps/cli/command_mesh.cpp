@@ -190,6 +190,8 @@ void run_mesh(MeshCommand& command) {
     measure(run, command.json.has_value() || command.page.has_value());
   }
   run.model = make_model(run, command.model, std::move(surface), bar);
+  run.recentred = command.model.recentre;
+  if (run.recentred) recentre(run.model);
   bar.show("write");
   NewFiles files;
   write_meshes(command, planned, run, files);

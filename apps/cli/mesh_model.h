@@ -33,6 +33,7 @@ struct ModelOptions {
   std::optional<RegionsBy> regions_by;
   std::vector<RegionWish> materials;
   std::vector<PinWish> pins;
+  bool recentre = false;  ///< Files leave out what the vertices are counted from.
 };
 
 void add_model_flags(CLI::App& app, ModelOptions& options);

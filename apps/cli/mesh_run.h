@@ -36,7 +36,8 @@ struct MeshRun {
   Fidelity fidelity;                   ///< To the soup.
   double iou = 0;                      ///< Of the final mesh and the pseudo volume.
   Material material;
-  TetModel model;  ///< What is written.
+  TetModel model;          ///< What is written.
+  bool recentred = false;  ///< Without the soup's origin.
   Readiness readiness;
   std::vector<std::string> notes;  ///< For the user.
   Timings seconds;

@@ -154,6 +154,11 @@ void add_model_flags(CLI::App& app, ModelOptions& options) {
       [&options](const std::string& text) { options.materials.push_back(parse_region(text)); },
       "Material of a region; what is left out is that of the whole");
   add_pin_flags(app, options);
+  app.add_flag(
+         "--recentre", options.recentre,
+         "Leave out how far a model lies from zero, as in map coordinates,\nwhere floats are too coarse for its size; "
+         "the report has the offset")
+      ->group(kGroup);
   add_flag(
       app, "--up", "x|y|z",
       [&options](const std::string& text) {

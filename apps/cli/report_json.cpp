@@ -36,6 +36,7 @@ std::string text_of(const Json& json) {
 std::string mesh_report_json(const MeshRun& run) {
   const Pipeline& pipeline = *run.pipeline;
   const PseudoVolumeReport& volume = pipeline.pseudo_volume().report;
+  const Vec3d& offset = pipeline.soup().soup.origin;
   Json outputs = Json::array();
   for (const auto& path : run.outputs) outputs.push_back(path.string());
   return text_of({{"tet_count", run.quality.tet_count},
@@ -61,6 +62,8 @@ std::string mesh_report_json(const MeshRun& run) {
                   {"version", TETSOUP_VERSION},
                   {"input", run.input},
                   {"outputs", outputs},
+                  {"offset", {offset.x, offset.y, offset.z}},
+                  {"recentred", run.recentred},
                   {"engine", run.engine.empty() ? Json() : Json(run.engine)},
                   {"options", part(run.options)},
                   {"grid", part(pipeline.grid())},

@@ -59,9 +59,15 @@ std::string named_parts(const std::vector<PartName>& parts) {
   return text;
 }
 
-std::string box_text(const Vec3d& lo, const Vec3d& hi) {
-  return fmt::format("box from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", lo.x, lo.y, lo.z, hi.x, hi.y,
-                     hi.z);
+/// With as many digits as tell its sides apart, wherever it lies.
+std::string box_text(const Vec3d& lo, const Vec3d& hi, const Vec3d& origin) {
+  const double size = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+  const double far = std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z)});
+  int digits = 6;
+  for (double reach = far; size > 0 && reach > size && digits < 17; reach /= 10) ++digits;
+  return fmt::format("box from ({:.{}g}, {:.{}g}, {:.{}g}) to ({:.{}g}, {:.{}g}, {:.{}g})", origin.x + lo.x, digits,
+                     origin.y + lo.y, digits, origin.z + lo.z, digits, origin.x + hi.x, digits, origin.y + hi.y, digits,
+                     origin.z + hi.z, digits);
 }
 
 /// The triangles of a part and the box around them.
@@ -111,7 +117,7 @@ std::string tabulate_soup(const std::string& name, const SoupReport& soup, const
           row("dropped: wild index", grouped(soup.index_out_of_range)) +
           row("dropped: duplicate", grouped(soup.duplicates));
   if (soup.kind == SoupClass::Empty) return text + "There is nothing to mesh in it.\n";
-  return text + "  " + box_text(soup.box.lo, soup.box.hi) + "\n" + named_parts(parts);
+  return text + "  " + box_text(soup.box.lo, soup.box.hi, soup.origin) + "\n" + named_parts(parts);
 }
 
 std::string tabulate_connected_parts(const TriangleSoup& soup) {
@@ -121,7 +127,8 @@ std::string tabulate_connected_parts(const TriangleSoup& soup) {
   const std::vector<PartSize> sizes = sizes_of(parts, soup);
   std::string text;
   for (std::size_t i = 0; i < std::min(sizes.size(), kMost); ++i)
-    text += row("triangles of " + parts.names[i], grouped(sizes[i].triangles), box_text(sizes[i].lo, sizes[i].hi));
+    text += row("triangles of " + parts.names[i], grouped(sizes[i].triangles),
+                box_text(sizes[i].lo, sizes[i].hi, soup.origin));
   if (sizes.size() > kMost) text += fmt::format("  and {} more\n", grouped(sizes.size() - kMost));
   return text;
 }

@@ -20,7 +20,8 @@ struct DistanceOptions {
   std::optional<double> voxel_size;  ///< Edge of a voxel; instead of `voxels`.
   double band_voxels = 3.25;         ///< Half width of the exact band, in voxels, >= 3; what a sound surface needs.
   DistanceMode mode = DistanceMode::Band;
-  std::optional<Box3> box;  ///< The space to cover, default the soup's own box. It must hold the soup.
+  /// The space to cover, in the input's place; default the soup's own box. It must hold the soup.
+  std::optional<Box3> box;
   bool operator==(const DistanceOptions&) const = default;
 };
 

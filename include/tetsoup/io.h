@@ -67,8 +67,9 @@ enum class SurfaceFormat { Obj, StlBinary, Ply };
 
 /// Writes triangles by extension: .obj, .stl (binary), .ply (binary little endian). Vertices no triangle uses are left
 /// out.
+/// @param origin  That the vertices are counted from; PLY then holds doubles, STL the nearest floats.
 void write_surface(const std::filesystem::path& path, std::span<const Vec3> vertices,
-                   std::span<const Triangle> triangles);
+                   std::span<const Triangle> triangles, const Vec3d& origin = {});
 
 // --- Tet meshes -----------------------------------------------------------------------------------------------------
 

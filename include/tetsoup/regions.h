@@ -39,7 +39,7 @@ std::vector<std::uint32_t> label_vertices(const TetMesh& mesh, const TriangleSou
 /// Cost: O(n) time and memory.
 std::vector<std::uint32_t> label_parts(const TriangleSoup& soup);
 
-/// Vertices in a box, its faces included.
+/// Vertices in a box of the input's place, its faces included.
 std::vector<std::uint32_t> vertices_in_box(const TetMesh& mesh, const Box3& box);
 
 /// Vertices with dot(normal, vertex) <= offset. @throws InvalidInput  if the normal is zero or not finite.

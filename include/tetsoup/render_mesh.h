@@ -34,6 +34,7 @@ struct RenderMesh {
   std::vector<std::uint32_t> corner_normals;    ///< Likewise.
   std::vector<Part> parts;                      ///< In the order in which faces first name them.
   std::vector<std::uint32_t> face_parts;        ///< Part of every face.
+  Vec3d origin{};                               ///< That the vertices are counted from.
   bool operator==(const RenderMesh&) const = default;
 };
 

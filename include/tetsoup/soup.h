@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,8 @@ struct SoupReport {
   std::size_t non_manifold_edges = 0;  ///< Edges of three or more triangles.
   std::size_t inconsistent_edges = 0;  ///< Edges of two triangles that run along them in the same direction.
   SoupClass kind = SoupClass::Empty;
-  Box3 box;  ///< Of the used triangles.
+  Vec3d origin;  ///< The soup's own,
+  Box3 box;      ///< and the box of the used triangles, counted from it.
   std::vector<std::string>
       notes;  ///< What the user should know, and the option that changes it: one sentence or two each.
 };
@@ -78,6 +80,11 @@ struct CleanSoup {
   SoupReport report;
   SoupParts parts;
 };
+
+/// A soup of points in double precision. If they lie farther from zero than 16 times their size, it gets an origin
+/// among them, a multiple of a power of two about as large as they are; else their floats are what a plain conversion
+/// gives. Few points far off, and such as no triangle uses, have no say in where that is.
+TriangleSoup make_soup(std::span<const Vec3d> vertices, std::vector<Triangle> triangles);
 
 /// Drops what cannot be used, counts all of it, and describes the rest.
 ///

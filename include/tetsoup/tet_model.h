@@ -32,4 +32,8 @@ struct TetModel {
   UpAxis up = UpAxis::Z;                   ///< Of the model, for the scene it is placed in.
 };
 
+/// Leaves out what the vertices are counted from, so that the model lies around zero; its surface keeps its place in
+/// it.
+void recentre(TetModel& model);
+
 }  // namespace tetsoup

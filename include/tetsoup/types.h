@@ -3,6 +3,10 @@
 // Lengths are in the soup's own unit unless a name ends in `_voxels` or `_cells`; angles are radians; right-handed
 // axes. Tets are positive: dot(cross(b - a, c - a), d - a) > 0. Boundary triangles are counter-clockwise seen from
 // outside. Grids run x fastest; values sit at voxel centres.
+//
+// Coordinates are floats, counted from an `origin` in double precision: it is zero unless the input lies far from zero
+// for its size, as in map coordinates. The stages work on what is counted from it; boxes and planes that users give and
+// reports that they read are in the input's own place.
 #pragma once
 
 #include <array>
@@ -31,15 +35,23 @@ struct Box3 {
 using Triangle = std::array<std::uint32_t, 3>;
 using Tet = std::array<std::uint32_t, 4>;
 
+/// Where a vertex lies in the input's own place.
+inline Vec3d placed(const Vec3& vertex, const Vec3d& origin) {
+  if (origin == Vec3d{}) return {vertex.x, vertex.y, vertex.z};  // -0 stays what it is
+  return {origin.x + vertex.x, origin.y + vertex.y, origin.z + vertex.z};
+}
+
 /// Any triangles at all: open, crossing, unoriented, duplicated, degenerate, non-finite.
 struct TriangleSoup {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
+  Vec3d origin{};  ///< That the vertices are counted from.
 };
 
 struct TetMesh {
   std::vector<Vec3> vertices;
   std::vector<Tet> tets;
+  Vec3d origin{};  ///< That the vertices are counted from.
 };
 
 /// Where a regular grid of cubic voxels lies. The grid is the voxels over the soup's box plus `pad` voxels on every
@@ -49,6 +61,7 @@ struct GridFrame {
   int pad = 0;                       ///< Voxels added on each side of the soup's box.
   Vec3d origin;                      ///< Centre of voxel (0, 0, 0).
   double voxel_size = 1;             ///< Edge of a voxel.
+  Vec3d soup_origin{};               ///< The soup's own, which `origin` is counted from.
 
   std::size_t voxel_count() const {
     return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);

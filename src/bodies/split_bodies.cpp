@@ -257,6 +257,7 @@ CleanSoup subset_of(const CleanSoup& soup, std::span<const std::uint32_t> chosen
   constexpr std::uint32_t kNone = 0xFFFFFFFFU;
   CleanSoup out;
   out.report.kind = soup.report.kind;
+  out.soup.origin = out.report.origin = soup.soup.origin;
   std::vector<std::uint32_t> vertex(soup.soup.vertices.size(), kNone), part(soup.parts.parts.size(), kNone);
   for (const std::uint32_t t : chosen)
     for (const std::uint32_t v : soup.soup.triangles[t]) vertex[v] = 0;

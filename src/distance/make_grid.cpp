@@ -24,7 +24,7 @@ bool is_finite(const Vec3d& v) {
 Box3 domain_of(const SoupReport& soup, const DistanceOptions& options) {
   if (soup.used_triangles == 0) throw InvalidInput("the soup has no finite triangle");
   if (!options.box) return soup.box;
-  const Box3& box = *options.box;
+  const Box3 box{options.box->lo - soup.origin, options.box->hi - soup.origin};
   const bool holds = is_finite(box.lo) && is_finite(box.hi) && min(box.lo, soup.box.lo) == box.lo &&
                      max(box.hi, soup.box.hi) == box.hi;
   if (!holds) throw InvalidInput("box must be finite and hold the soup's own box");
@@ -61,6 +61,7 @@ GridFrame make_grid(const CleanSoup& soup, const DistanceOptions& options) {
   GridFrame frame;
   frame.pad = kPad;
   frame.voxel_size = h;
+  frame.soup_origin = soup.soup.origin;
   const std::array<double, 3> along{extent.x, extent.y, extent.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double voxels = std::max(1.0, std::ceil(along[axis] / h * (1 - 1e-12)));

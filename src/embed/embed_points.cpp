@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "base/origin.h"
 #include "base/require.h"
 #include "base/tet_faces.h"
 #include "embed/own_copy.h"
@@ -181,7 +182,9 @@ Embedding embed_points(const TetMesh& mesh, const TriangleSoup& soup, const Embe
                        const Progress& progress) {
   require_usable(mesh, options);
   StageWatch watch(progress, "embed");
-  return Embedder(mesh, soup, options, watch).run();
+  if (soup.origin == mesh.origin) return Embedder(mesh, soup, options, watch).run();
+  const TriangleSoup near{recounted(soup.vertices, soup.origin, mesh.origin), soup.triangles, mesh.origin};
+  return Embedder(mesh, near, options, watch).run();
 }
 
 }  // namespace tetsoup

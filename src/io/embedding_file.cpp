@@ -91,13 +91,13 @@ Embedding parse_npz_embedding(std::string_view bytes, const std::string& name) {
   const auto arrays = read_npz(bytes, name);
   Embedding embedding;
   embedding.tets = npz_indices(arrays, name, "tets", 0);
-  const std::vector<float> weights = npz_reals(arrays, name, "weights", 4);
-  embedding.distances = npz_reals(arrays, name, "distances", 0);
+  const std::vector<double> weights = npz_reals(arrays, name, "weights", 4);
+  for (const double distance : npz_reals(arrays, name, "distances", 0)) embedding.distances.push_back(narrow(distance));
   const std::size_t count = embedding.tets.size();
   if (weights.size() != 4 * count || embedding.distances.size() != count)
     fail_in_file(name, 0, "'tets', 'weights' and 'distances' are not of as many points");
   embedding.weights.resize(count);
-  for (std::size_t i = 0; i < weights.size(); ++i) embedding.weights[i / 4][i % 4] = weights[i];
+  for (std::size_t i = 0; i < weights.size(); ++i) embedding.weights[i / 4][i % 4] = narrow(weights[i]);
   return embedding;
 }
 

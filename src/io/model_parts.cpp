@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/origin.h"
 #include "base/require.h"
 #include "base/tet_geometry.h"
 
@@ -125,6 +126,12 @@ Material in_mesh_units(const Material& material) {
   scaled.density *= unit * unit * unit;  // kg/m^3
   scaled.young *= unit;                  // Pa = kg/(m s^2)
   return scaled;
+}
+
+void recentre(TetModel& model) {
+  model.render.vertices = recounted(model.render.vertices, model.render.origin, model.mesh.origin);
+  model.render.origin = {};
+  model.mesh.origin = {};
 }
 
 }  // namespace tetsoup

@@ -59,8 +59,8 @@ std::map<std::string, NpzArray> read_npz(std::string_view bytes, const std::stri
 /// An array's numbers, whatever they are stored as.
 /// @param columns  Wanted in every row; 0: numbers without rows.
 /// @throws IoError  naming the array, if it is missing, has another shape, or holds what an index cannot be.
-std::vector<float> npz_reals(const std::map<std::string, NpzArray>& arrays, const std::string& file,
-                             const std::string& array, std::size_t columns);
+std::vector<double> npz_reals(const std::map<std::string, NpzArray>& arrays, const std::string& file,
+                              const std::string& array, std::size_t columns);
 std::vector<std::uint32_t> npz_indices(const std::map<std::string, NpzArray>& arrays, const std::string& file,
                                        const std::string& array, std::size_t columns);
 

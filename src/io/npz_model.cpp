@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/origin.h"
 #include "base/tet_geometry.h"
 #include "io/model_parts.h"
 #include "io/npz.h"
@@ -61,11 +62,20 @@ std::span<const Array> flat(std::span<const std::array<Array, kColumns>> rows) {
   return {rows.empty() ? nullptr : rows.front().data(), kColumns * rows.size()};
 }
 
-std::vector<float> flat(std::span<const Vec3> points) {
-  std::vector<float> numbers;
+template <class Number, class Point>
+std::vector<Number> flat_numbers(std::span<const Point> points) {
+  std::vector<Number> numbers;
   numbers.reserve(3 * points.size());
-  for (const Vec3& p : points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+  for (const Point& p : points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
   return numbers;
+}
+
+/// Floats, which Newton reads; doubles where the points lie too far from zero for those.
+template <class Add>
+void add_points(std::span<const Vec3> points, const Vec3d& origin, const Add& add) {
+  if (origin == Vec3d{}) return add(std::span<const float>(flat_numbers<float>(points)));
+  const std::vector<Vec3d> placed = placed_points(points, origin);
+  add(std::span<const double>(flat_numbers<double>(std::span<const Vec3d>(placed))));
 }
 
 /// Of one material that gives the mesh its mass; the first region's where it has no volume.
@@ -128,19 +138,21 @@ void add_embedding(ExtraArrays& arrays, const TetModel& model) {
   arrays.add("embedding_tets", Frequency::Once, {count}, std::span<const std::int32_t>(tets));
   arrays.add("embedding_weights", Frequency::Once, {count, 4}, flat(std::span(embedding.weights)));
   if (model.render.vertices.size() != count) return;
-  const std::vector<float> vertices = flat(model.render.vertices);
-  arrays.add("render_vertices", Frequency::Once, {count, 3}, std::span<const float>(vertices));
+  add_points(model.render.vertices, model.render.origin, [&](auto numbers) {
+    arrays.add("render_vertices", Frequency::Once, {count, 3}, numbers);
+  });
 }
 
 }  // namespace
 
 std::string npz_text(const TetModel& model) {
   NpzWriter npz;
-  const std::vector<float> vertices = flat(model.mesh.vertices);
   std::vector<std::int32_t> corners;
   for (const Tet& tet : model.mesh.tets)
     for (const std::uint32_t corner : tet) corners.push_back(static_cast<std::int32_t>(corner));
-  npz.add("vertices", {model.mesh.vertices.size(), 3}, std::span<const float>(vertices));
+  add_points(model.mesh.vertices, model.mesh.origin, [&](auto numbers) {
+    npz.add("vertices", {model.mesh.vertices.size(), 3}, numbers);
+  });
   npz.add("tet_indices", {model.mesh.tets.size(), 4}, std::span<const std::int32_t>(corners));
   add_materials(npz, model);
   ExtraArrays extra(npz);
@@ -156,10 +168,10 @@ TetMesh parse_npz(std::string_view bytes, const std::string& name) {
   const auto arrays = read_npz(bytes, name);
   const auto corners_array = arrays.find("tet_indices");
   const bool flat_corners = corners_array != arrays.end() && corners_array->second.shape.size() == 1;
-  const std::vector<float> p = npz_reals(arrays, name, "vertices", 3);
+  const std::vector<double> p = npz_reals(arrays, name, "vertices", 3);
   const std::vector<std::uint32_t> corners = npz_indices(arrays, name, "tet_indices", flat_corners ? 0 : 4);
   if (corners.size() % 4 != 0) fail_in_file(name, 0, "'tet_indices' is not four corners for every tet");
-  TetMesh mesh;
+  WideTetMesh mesh;
   for (std::size_t i = 0; i < p.size(); i += 3) mesh.vertices.push_back({p[i], p[i + 1], p[i + 2]});
   for (const std::uint32_t corner : corners)
     if (corner >= mesh.vertices.size())
@@ -168,7 +180,7 @@ TetMesh parse_npz(std::string_view bytes, const std::string& name) {
                        std::to_string(mesh.vertices.size()));
   for (std::size_t i = 0; i < corners.size(); i += 4)
     mesh.tets.push_back({corners[i], corners[i + 1], corners[i + 2], corners[i + 3]});
-  return mesh;
+  return std::move(mesh).narrowed();
 }
 
 }  // namespace tetsoup

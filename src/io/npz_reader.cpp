@@ -229,12 +229,12 @@ std::map<std::string, NpzArray> read_npz(std::string_view bytes, const std::stri
   return arrays;
 }
 
-std::vector<float> npz_reals(const std::map<std::string, NpzArray>& arrays, const std::string& file,
-                             const std::string& array, std::size_t columns) {
+std::vector<double> npz_reals(const std::map<std::string, NpzArray>& arrays, const std::string& file,
+                              const std::string& array, std::size_t columns) {
   const NpzArray& found = find_array(arrays, file, array, columns);
-  std::vector<float> numbers;
+  std::vector<double> numbers;
   numbers.reserve(found.count());
-  for_each_number(found, [&](auto value) { numbers.push_back(narrow(static_cast<double>(value))); });
+  for_each_number(found, [&](auto value) { numbers.push_back(static_cast<double>(value)); });
   return numbers;
 }
 

@@ -13,8 +13,6 @@ Wanted convert(Stored stored) {
   if constexpr (std::integral<Wanted> && std::floating_point<Stored>) {
     constexpr double kLimit = 9e15;  // Below 2^53: integers that doubles hold exactly.
     return std::abs(static_cast<double>(stored)) < kLimit ? static_cast<Wanted>(stored) : Wanted{-1};
-  } else if constexpr (std::same_as<Wanted, float> && std::same_as<Stored, double>) {
-    return narrow(stored);
   } else {
     return static_cast<Wanted>(stored);
   }
@@ -54,8 +52,8 @@ std::int64_t NumberStream::integer(const char* what) {
   return type_ ? load<std::int64_t>(what) : source_.integer(what);
 }
 
-float NumberStream::real(const char* what) {
-  return type_ ? load<float>(what) : source_.real(what);
+double NumberStream::real(const char* what) {
+  return type_ ? load<double>(what) : source_.real(what);
 }
 
 std::uint32_t NumberStream::index(const char* what, std::size_t count) {

@@ -30,7 +30,7 @@ class NumberStream {
   bool at_end() { return type_ ? source_.left() == 0 : source_.at_end(); }
 
   std::int64_t integer(const char* what);
-  float real(const char* what);
+  double real(const char* what);
   /// An integer below `count`.
   std::uint32_t index(const char* what, std::size_t count);
   [[noreturn]] void fail(const std::string& reason) const;

@@ -46,17 +46,13 @@ void append_shortest(std::string& text, Real value) {
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
-float out_of_range_value(std::string_view word) {
-  double wide = 0;
-  const auto result = std::from_chars(word.data(), word.data() + word.size(), wide);
-  const bool tiny = result.ec == std::errc::result_out_of_range
-                        ? word.find("e-") != word.npos || word.find("E-") != word.npos
-                        : std::abs(wide) < 1;
-  const float size = tiny ? 0.0F : std::numeric_limits<float>::infinity();
+double out_of_range_value(std::string_view word) {
+  const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos || word.find("0.0") < 2;
+  const double size = tiny ? 0.0 : std::numeric_limits<double>::infinity();
   return word.starts_with('-') ? -size : size;
 }
 
-bool parse_plain(std::string_view word, float& value) {
+bool parse_plain(std::string_view word, double& value) {
   const char* end = word.data() + word.size();
   const auto result = std::from_chars(word.data(), end, value);
   if (result.ec == std::errc::result_out_of_range) value = out_of_range_value(word);
@@ -72,11 +68,11 @@ void append_shortest(std::string& text, float value) {
   append_float_slowly(text, value);
 }
 
-bool parse_plain(std::string_view word, float& value) {
+bool parse_plain(std::string_view word, double& value) {
   if (word.find_first_of("xX") != word.npos) return false;
   const std::string copy(word);
   char* end = nullptr;
-  value = std::strtof(copy.c_str(), &end);
+  value = std::strtod(copy.c_str(), &end);
   return !copy.empty() && end == copy.c_str() + copy.size();
 }
 
@@ -118,7 +114,7 @@ void append_float(std::string& text, float value) {
   append_shortest(text, value);
 }
 
-bool parse_real(std::string_view word, float& value) {
+bool parse_real(std::string_view word, double& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
   return parse_plain(word, value);
 }

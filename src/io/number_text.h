@@ -45,8 +45,8 @@ void append_line(std::string& text, First first, Rest... rest) {
   text += '\n';
 }
 
-/// Nearest float to the number that is the whole of `word`; beyond its range that is infinity or zero. False if it is
+/// Nearest double to the number that is the whole of `word`; beyond its range that is infinity or zero. False if it is
 /// no number.
-bool parse_real(std::string_view word, float& value);
+bool parse_real(std::string_view word, double& value);
 
 }  // namespace tetsoup

@@ -15,6 +15,7 @@ struct ObjPlace {
   std::span<const Vec3> normals;                     ///< None: corners have none.
   std::string object;                                ///< Goes before the names of its own objects.
   std::size_t first_vertex = 0, first_texcoord = 0;  ///< Of the file, before this.
+  Vec3d origin{};                                    ///< That the vertices are counted from.
 };
 
 /// The mesh's index lists must fit together.

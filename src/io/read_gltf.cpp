@@ -18,10 +18,8 @@ using gltf::Document;
 struct Affine {
   std::array<std::array<double, 4>, 3> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-  Vec3 apply(double x, double y, double z) const {
-    const auto row = [&](std::size_t r) {
-      return static_cast<float>(rows[r][0] * x + rows[r][1] * y + rows[r][2] * z + rows[r][3]);
-    };
+  Vec3d apply(double x, double y, double z) const {
+    const auto row = [&](std::size_t r) { return rows[r][0] * x + rows[r][1] * y + rows[r][2] * z + rows[r][3]; };
     return {row(0), row(1), row(2)};
   }
 

@@ -19,8 +19,8 @@ std::uint32_t read_vertex(TetScanner& in, std::int64_t base, std::size_t count) 
   return static_cast<std::uint32_t>(index - base);
 }
 
-Vec3 read_point(TetScanner& in) {
-  Vec3 point;
+Vec3d read_point(TetScanner& in) {
+  Vec3d point;
   point.x = in.real("x coordinate");
   point.y = in.real("y coordinate");
   point.z = in.real("z coordinate");
@@ -33,7 +33,7 @@ Tet read_tet(TetScanner& in, std::int64_t base, std::size_t vertex_count) {
   return tet;
 }
 
-void read_medit_vertices(TetScanner& in, TetMesh& mesh) {
+void read_medit_vertices(TetScanner& in, WideTetMesh& mesh) {
   const std::size_t count = in.count("number of vertices", 8);
   mesh.vertices.reserve(mesh.vertices.size() + count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -42,7 +42,7 @@ void read_medit_vertices(TetScanner& in, TetMesh& mesh) {
   }
 }
 
-void read_medit_tets(TetScanner& in, TetMesh& mesh) {
+void read_medit_tets(TetScanner& in, WideTetMesh& mesh) {
   const std::size_t count = in.count("number of tets", 10);
   mesh.tets.reserve(mesh.tets.size() + count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -58,7 +58,7 @@ void skip_numbers(TetScanner& in) {
 
 // "count dimension attributes markers", then per node "index x y z attributes... marker".
 // Returns what the first is numbered.
-std::int64_t read_tetgen_nodes(TetScanner& in, TetMesh& mesh) {
+std::int64_t read_tetgen_nodes(TetScanner& in, WideTetMesh& mesh) {
   const std::int64_t claimed = in.integer("number of nodes");
   if (in.integer("dimension") != 3) in.fail("the dimension is not 3");
   const std::size_t extras = in.count("number of attributes", 1) + in.count("number of boundary markers", 1);
@@ -78,7 +78,7 @@ std::int64_t read_tetgen_nodes(TetScanner& in, TetMesh& mesh) {
 }
 
 // "count corners attributes", then per tet "index corners... attributes...".
-void read_tetgen_tets(TetScanner& in, std::int64_t base, TetMesh& mesh) {
+void read_tetgen_tets(TetScanner& in, std::int64_t base, WideTetMesh& mesh) {
   const std::int64_t claimed = in.integer("number of tets");
   const std::int64_t corners = in.integer("number of corners of a tet");
   if (corners != 4 && corners != 10) in.fail("tets with " + std::to_string(corners) + " corners are not read");
@@ -96,7 +96,7 @@ void read_tetgen_tets(TetScanner& in, std::int64_t base, TetMesh& mesh) {
 
 TetMesh parse_medit(std::string_view text, const std::string& name) {
   TetScanner in(text, name, '#');
-  TetMesh mesh;
+  WideTetMesh mesh;
   if (in.word() != "MeshVersionFormatted") in.fail("not a MEDIT mesh: it does not begin MeshVersionFormatted");
   in.integer("version");
   while (!in.at_end()) {
@@ -114,17 +114,17 @@ TetMesh parse_medit(std::string_view text, const std::string& name) {
       in.fail("expected a keyword such as Vertices");
     }
   }
-  return mesh;
+  return std::move(mesh).narrowed();
 }
 
 TetMesh parse_tetgen(std::string_view nodes, const std::string& nodes_name, std::string_view tets,
                      const std::string& tets_name) {
-  TetMesh mesh;
+  WideTetMesh mesh;
   TetScanner node_scanner(nodes, nodes_name, '#');
   const std::int64_t base = read_tetgen_nodes(node_scanner, mesh);
   TetScanner tet_scanner(tets, tets_name, '#');
   read_tetgen_tets(tet_scanner, base, mesh);
-  return mesh;
+  return std::move(mesh).narrowed();
 }
 
 }  // namespace tetsoup

@@ -44,7 +44,7 @@ class MshReader {
       if (!in_.skip_past("$End" + section.substr(1))) in_.fail("section " + section + " has no end");
     }
     if (!major_) in_.fail("there is no $MeshFormat section: not a Gmsh mesh");
-    return std::move(mesh_);
+    return std::move(mesh_).narrowed();
   }
 
  private:
@@ -71,9 +71,9 @@ class MshReader {
 
   std::int64_t read_int(const char* what) { return binary_ ? in_.raw<std::int32_t>(what) : in_.integer(what); }
   std::int64_t read_size(const char* what) { return binary_ ? in_.raw<std::int64_t>(what) : in_.integer(what); }
-  float read_real(const char* what) { return binary_ ? narrow(in_.raw<double>(what)) : in_.real(what); }
-  Vec3 read_point() {
-    Vec3 point;
+  double read_real(const char* what) { return binary_ ? in_.raw<double>(what) : in_.real(what); }
+  Vec3d read_point() {
+    Vec3d point;
     point.x = read_real("x coordinate");
     point.y = read_real("y coordinate");
     point.z = read_real("z coordinate");
@@ -218,7 +218,7 @@ class MshReader {
   }
 
   TetScanner in_;
-  TetMesh mesh_;
+  WideTetMesh mesh_;
   std::optional<int> major_;
   bool binary_ = false;
   bool sequential_ = true;                                    // Tags are 1, 2, 3, ...

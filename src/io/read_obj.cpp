@@ -12,12 +12,12 @@ constexpr std::uint32_t kNone = RenderMesh::kNone;
 static_assert(kNone == kNoVertex);
 
 /// Weights and vertex colours may follow the three coordinates.
-Vec3 read_point(TextScanner& text) {
+Vec3d read_point(TextScanner& text) {
   const auto coordinate = [&] {
     text.skip_blanks();
-    return static_cast<float>(text.number());
+    return text.number();
   };
-  const float x = coordinate(), y = coordinate(), z = coordinate();
+  const double x = coordinate(), y = coordinate(), z = coordinate();
   return {x, y, z};
 }
 

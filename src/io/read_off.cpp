@@ -46,11 +46,11 @@ template <class Sink>
 void read_vertices(TextScanner& text, std::size_t count, Sink& sink) {
   const auto coordinate = [&] {
     text.skip_space_and_comments();
-    return static_cast<float>(text.number());
+    return text.number();
   };
   sink.reserve_vertices(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const float x = coordinate(), y = coordinate(), z = coordinate();
+    const double x = coordinate(), y = coordinate(), z = coordinate();
     sink.add_vertex({x, y, z});
     text.skip_line();
   }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "base/vec.h"
 #include "io/load_bytes.h"
 #include "io/ply_header.h"
 #include "io/text_scanner.h"
@@ -114,16 +115,16 @@ void skip_property(Body& body, const Property& property) {
 }
 
 struct VertexRecord {
-  Vec3 position, normal;
-  Vec2 texcoord;
+  Vec3d position, normal;
+  double u = 0, v = 0;
 
   /// Where a property's number goes; nowhere: it is passed over.
-  float* place_of(const Property& property) {
+  double* place_of(const Property& property) {
     if (property.count_type) return nullptr;
-    const std::pair<std::string_view, float*> places[] = {
-        {"x", &position.x}, {"y", &position.y}, {"z", &position.z},         {"nx", &normal.x},
-        {"ny", &normal.y},  {"nz", &normal.z},  {"s", &texcoord.x},         {"t", &texcoord.y},
-        {"u", &texcoord.x}, {"v", &texcoord.y}, {"texture_u", &texcoord.x}, {"texture_v", &texcoord.y}};
+    const std::pair<std::string_view, double*> places[] = {{"x", &position.x}, {"y", &position.y}, {"z", &position.z},
+                                                           {"nx", &normal.x},  {"ny", &normal.y},  {"nz", &normal.z},
+                                                           {"s", &u},          {"t", &v},          {"u", &u},
+                                                           {"v", &v},          {"texture_u", &u},  {"texture_v", &v}};
     for (const auto& [name, place] : places)
       if (property.name == name) return place;
     return nullptr;
@@ -155,22 +156,22 @@ VertexDetails details_of(const Header& header) {
 template <class Body, class Sink>
 void read_vertices(Body& body, const Element& element, [[maybe_unused]] VertexDetails details, Sink& sink) {
   VertexRecord record;
-  std::vector<float*> places;
+  std::vector<double*> places;
   for (const Property& property : element.properties) places.push_back(record.place_of(property));
   sink.reserve_vertices(element.count);
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (std::size_t p = 0; p < places.size(); ++p) {
       const Property& property = element.properties[p];
       if (places[p]) {
-        *places[p] = static_cast<float>(body.number(property.type));
+        *places[p] = body.number(property.type);
       } else {
         skip_property(body, property);
       }
     }
     sink.add_vertex(record.position);
     if constexpr (Sink::kDetails) {
-      if (details.texcoords) sink.add_texcoord(record.texcoord);
-      if (details.normals) sink.add_normal(record.normal);
+      if (details.texcoords) sink.add_texcoord({static_cast<float>(record.u), static_cast<float>(record.v)});
+      if (details.normals) sink.add_normal(to_float(record.normal));
     }
   }
 }

@@ -99,12 +99,12 @@ class TextReader {
   void expect(std::string_view keyword) {
     if (!take(keyword)) text_.fail_expected(in_quotes(keyword));
   }
-  Vec3 point() {
+  Vec3d point() {
     const auto coordinate = [&] {
       text_.skip_space();
-      return static_cast<float>(text_.number());
+      return text_.number();
     };
-    const float x = coordinate(), y = coordinate(), z = coordinate();
+    const double x = coordinate(), y = coordinate(), z = coordinate();
     return {x, y, z};
   }
 

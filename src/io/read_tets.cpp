@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/origin.h"
 #include "io/file_names.h"
 #include "io/tet_readers.h"
 #include "tetsoup/error.h"
@@ -84,6 +85,11 @@ bool names_tetgen_set(const fs::path& path) {
 }
 
 }  // namespace
+
+TetMesh WideTetMesh::narrowed() && {
+  const Vec3d origin = origin_of(vertices, flat(std::span<const Tet>(tets)));
+  return {counted_from(origin, vertices), std::move(tets), origin};
+}
 
 TetMesh read_tets(const fs::path& path) {
   if (names_tetgen_set(path)) return read_tetgen_set(path);

@@ -40,7 +40,7 @@ class VtkReader {
         in_.fail("expected POINTS, CELLS or CELL_TYPES, found something else");
     }
     if (!types_read_) in_.fail("the file ends before CELL_TYPES");
-    return std::move(mesh_);
+    return std::move(mesh_).narrowed();
   }
 
  private:
@@ -131,7 +131,7 @@ class VtkReader {
     NumberStream stream = numbers(read_type());
     const std::size_t count = in_.checked_count(claimed, "number of points", 3 * stream.least_bytes());
     mesh_.vertices.resize(count);
-    for (Vec3& vertex : mesh_.vertices) {
+    for (Vec3d& vertex : mesh_.vertices) {
       vertex.x = stream.real("x coordinate");
       vertex.y = stream.real("y coordinate");
       vertex.z = stream.real("z coordinate");
@@ -204,7 +204,7 @@ class VtkReader {
   }
 
   TetScanner in_;
-  TetMesh mesh_;
+  WideTetMesh mesh_;
   bool binary_ = false;
   bool types_read_ = false;
   std::vector<std::uint32_t> corners_;  // Of all cells.

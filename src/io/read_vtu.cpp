@@ -42,7 +42,7 @@ class VtuReader {
   TetMesh read() {
     read_structure();
     for (const Piece& piece : pieces_) read_piece(piece);
-    return std::move(mesh_);
+    return std::move(mesh_).narrowed();
   }
 
  private:
@@ -117,7 +117,7 @@ class VtuReader {
       const std::size_t points = source.checked_count(count, "number of points", 3 * numbers.least_bytes());
       mesh_.vertices.reserve(mesh_.vertices.size() + points);
       for (std::size_t i = 0; i < points; ++i) {
-        Vec3 point;
+        Vec3d point;
         point.x = numbers.real("x coordinate");
         point.y = numbers.real("y coordinate");
         point.z = numbers.real("z coordinate");
@@ -257,7 +257,7 @@ class VtuReader {
 
   TetScanner in_;
   const std::string& name_;
-  TetMesh mesh_;
+  WideTetMesh mesh_;
   ByteOrder order_ = ByteOrder::Little;
   NumberType header_ = NumberType::UInt32;
   bool compressed_ = false;

@@ -66,7 +66,10 @@ void append_name_line(std::string& text, const char* keyword, const std::string&
 }
 
 void append_obj(std::string& text, const RenderMesh& mesh, const ObjPlace& place) {
-  for (const Vec3& v : place.vertices) append_line(text += "v ", v.x, v.y, v.z);
+  for (const Vec3& vertex : place.vertices) {
+    const Vec3d v = placed(vertex, place.origin);
+    append_line(text += "v ", v.x, v.y, v.z);
+  }
   for (const Vec2& t : mesh.texcoords) append_line(text += "vt ", t.x, t.y);
   for (const Vec3& n : place.normals) append_line(text += "vn ", n.x, n.y, n.z);
   const auto choice = [](const std::vector<std::uint32_t>& choices, std::size_t corner) {
@@ -97,6 +100,7 @@ void append_obj(std::string& text, const RenderMesh& mesh, const ObjPlace& place
 RenderMesh render_mesh_of(const TriangleSoup& soup) {
   RenderMesh mesh;
   mesh.vertices = soup.vertices;
+  mesh.origin = soup.origin;
   mesh.face_sizes.assign(soup.triangles.size(), 3);
   mesh.corners.reserve(soup.triangles.size() * 3);
   for (const Triangle& t : soup.triangles) mesh.corners.insert(mesh.corners.end(), t.begin(), t.end());
@@ -106,7 +110,7 @@ RenderMesh render_mesh_of(const TriangleSoup& soup) {
 }
 
 TriangleSoup triangles_of(const RenderMesh& mesh) {
-  TriangleSoup soup{mesh.vertices, {}};
+  TriangleSoup soup{mesh.vertices, {}, mesh.origin};
   soup.triangles.reserve(mesh.face_sizes.size());
   cut_into_fans(mesh, [&](const Triangle& triangle, std::size_t) { soup.triangles.push_back(triangle); });
   return soup;
@@ -147,7 +151,7 @@ void write_render_mesh(const std::filesystem::path& path, const RenderMesh& mesh
   require_whole(mesh);
   AtomicFile file(path);
   std::string text;
-  append_obj(text, mesh, {mesh.vertices, mesh.normals, {}, 0, 0});
+  append_obj(text, mesh, {mesh.vertices, mesh.normals, {}, 0, 0, mesh.origin});
   file.write(text);
   file.commit();
 }

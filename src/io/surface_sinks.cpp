@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/origin.h"
 #include "io/soup_readers.h"
 
 namespace tetsoup::readers {
@@ -31,6 +32,12 @@ void drop_wild_choices(std::vector<std::uint32_t>& choices, std::size_t corner_c
 }
 
 }  // namespace
+
+TriangleSoup SoupSink::take() {
+  soup_.origin = origin_of(points_, flat(std::span<const Triangle>(soup_.triangles)));
+  soup_.vertices = counted_from(soup_.origin, points_);
+  return std::move(soup_);
+}
 
 void MeshSink::Polygon::finish() {
   RenderMesh& mesh = sink_.mesh_;
@@ -79,6 +86,8 @@ void MeshSink::find_part() {
 }
 
 RenderMesh MeshSink::take() {
+  mesh_.origin = origin_of(points_, mesh_.corners);
+  mesh_.vertices = counted_from(mesh_.origin, points_);
   drop_wild_choices(mesh_.corner_texcoords, mesh_.corners.size(), mesh_.texcoords.size());
   drop_wild_choices(mesh_.corner_normals, mesh_.corners.size(), mesh_.normals.size());
   return std::move(mesh_);

@@ -67,15 +67,17 @@ class SoupSink {
   static constexpr bool kDetails = false;
   using Polygon = Fan<SoupSink>;
 
-  void reserve_vertices(std::size_t added) { soup_.vertices.reserve(soup_.vertices.size() + added); }
+  void reserve_vertices(std::size_t added) { points_.reserve(points_.size() + added); }
   void reserve_faces(std::size_t added) { soup_.triangles.reserve(soup_.triangles.size() + added); }
-  void add_vertex(const Vec3& vertex) { soup_.vertices.push_back(vertex); }
+  void add_vertex(const Vec3d& vertex) { points_.push_back(vertex); }
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { soup_.triangles.push_back({a, b, c}); }
-  std::size_t vertex_count() const { return soup_.vertices.size(); }
+  std::size_t vertex_count() const { return points_.size(); }
   std::size_t face_count() const { return soup_.triangles.size(); }
-  TriangleSoup take() { return std::move(soup_); }
+  /// Counted from where make_soup() counts from.
+  TriangleSoup take();
 
  private:
+  std::vector<Vec3d> points_;
   TriangleSoup soup_;
 };
 
@@ -112,11 +114,11 @@ class MeshSink {
   /// @param file_bytes  How much the names of all parts together may take depends on it: each part repeats its three.
   MeshSink(std::string_view file_name, std::size_t file_bytes) : file_name_(file_name), file_bytes_(file_bytes) {}
 
-  void reserve_vertices(std::size_t added) { mesh_.vertices.reserve(mesh_.vertices.size() + added); }
+  void reserve_vertices(std::size_t added) { points_.reserve(points_.size() + added); }
   void reserve_faces(std::size_t added);
-  void add_vertex(const Vec3& vertex) { mesh_.vertices.push_back(vertex); }
+  void add_vertex(const Vec3d& vertex) { points_.push_back(vertex); }
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  std::size_t vertex_count() const { return mesh_.vertices.size(); }
+  std::size_t vertex_count() const { return points_.size(); }
   std::size_t face_count() const { return mesh_.face_sizes.size(); }
   std::size_t corner_count() const { return mesh_.corners.size(); }
 
@@ -137,7 +139,7 @@ class MeshSink {
   void set_group(std::string name) { set_name(next_part_.group, std::move(name)); }
   void set_material(std::string name) { set_name(next_part_.material, std::move(name)); }
 
-  /// Corners whose texture coordinate or normal the file does not have get none.
+  /// Counted from where the soup's are. Corners whose texture coordinate or normal the file does not have get none.
   RenderMesh take();
 
  private:
@@ -154,6 +156,7 @@ class MeshSink {
 
   std::string_view file_name_;
   std::size_t file_bytes_ = 0, name_bytes_ = 0;
+  std::vector<Vec3d> points_;
   RenderMesh mesh_;
   RenderMesh::Part next_part_;
   bool part_known_ = false;

@@ -3,10 +3,20 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tetsoup/types.h"
 
 namespace tetsoup {
+
+/// As files hold it.
+struct WideTetMesh {
+  std::vector<Vec3d> vertices;
+  std::vector<Tet> tets;
+
+  /// Counted from where make_soup() would count from.
+  TetMesh narrowed() &&;
+};
 
 TetMesh parse_msh(std::string_view text, const std::string& name);    ///< MSH 2.2 and 4.1, ASCII and binary.
 TetMesh parse_vtk(std::string_view text, const std::string& name);    ///< Legacy VTK up to 5.1, ASCII and binary.

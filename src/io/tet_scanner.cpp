@@ -84,9 +84,9 @@ std::int64_t TetScanner::integer(const char* what) {
   return value;
 }
 
-float TetScanner::real(const char* what) {
+double TetScanner::real(const char* what) {
   const std::string_view found = word();
-  float value = 0;
+  double value = 0;
   if (!parse_real(found, value)) fail_expected(what, found);
   return value;
 }

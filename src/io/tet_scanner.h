@@ -32,7 +32,7 @@ class TetScanner {
   std::string_view bytes(std::size_t count, const char* what);
 
   std::int64_t integer(const char* what);
-  float real(const char* what);
+  double real(const char* what);
   /// A count of things that take at least `least_bytes` each in what is left of the file: no file can make us allocate
   /// more than a small multiple of its size.
   std::size_t count(const char* what, std::size_t least_bytes);

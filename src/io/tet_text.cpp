@@ -3,6 +3,7 @@
 // D > 0.
 #include <string>
 
+#include "base/origin.h"
 #include "base/vec.h"
 #include "io/model_parts.h"
 #include "io/number_text.h"
@@ -17,14 +18,14 @@ std::string msh41_text(const TetModel& model) {
   const TetMesh& mesh = model.mesh;
   std::string text = text_for(mesh);
   const std::size_t nodes = mesh.vertices.size(), tets = mesh.tets.size();
-  const Box3 box = box_of(mesh.vertices);
+  const Box3 around = box_of(mesh.vertices), box{around.lo + mesh.origin, around.hi + mesh.origin};
   text += "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n";
   append_line(text, 1, box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z, 0, 0);
   text += "$EndEntities\n$Nodes\n";
   append_line(text, 1, nodes, 1, nodes);
   append_line(text, 3, 1, 0, nodes);
   for (std::size_t i = 0; i < nodes; ++i) append_line(text, i + 1);
-  for (const Vec3& v : mesh.vertices) append_line(text, v.x, v.y, v.z);
+  for (const Vec3d& v : placed_points(mesh.vertices, mesh.origin)) append_line(text, v.x, v.y, v.z);
   text += "$EndNodes\n$Elements\n";
   append_line(text, 1, tets, 1, tets);
   append_line(text, 3, 1, 4, tets);
@@ -43,7 +44,7 @@ std::string msh22_text(const TetModel& model) {
   text += "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n";
   append_line(text, mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3& v = mesh.vertices[i];
+    const Vec3d v = placed(mesh.vertices[i], mesh.origin);
     append_line(text, i + 1, v.x, v.y, v.z);
   }
   text += "$EndNodes\n$Elements\n";
@@ -74,7 +75,7 @@ std::string medit_text(const TetModel& model) {
   text += "MeshVersionFormatted 2\nDimension 3\n\nVertices\n";
   append_line(text, mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3& v = mesh.vertices[i];
+    const Vec3d v = placed(mesh.vertices[i], mesh.origin);
     append_line(text, v.x, v.y, v.z, marks[i]);
   }
   text += "\nTetrahedra\n";
@@ -94,7 +95,7 @@ std::string tetgen_node_text(const TetModel& model) {
   const std::vector<std::uint32_t> marks = pin_marks(model);
   append_line(text, mesh.vertices.size(), 3, 0, marked ? 1 : 0);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3& v = mesh.vertices[i];
+    const Vec3d v = placed(mesh.vertices[i], mesh.origin);
     if (marked)
       append_line(text, i, v.x, v.y, v.z, marks[i]);
     else
@@ -128,7 +129,7 @@ std::string tetgen_face_text(const TetModel& model) {
 std::string isaacgym_text(const TetModel& model) {
   std::string text = text_for(model.mesh);
   text += "# tetsoup\n";
-  for (const Vec3& v : model.mesh.vertices) {
+  for (const Vec3d& v : placed_points(model.mesh.vertices, model.mesh.origin)) {
     text += "v ";
     append_line(text, v.x, v.y, v.z);
   }
@@ -143,7 +144,7 @@ std::string obj_tets_text(const TetModel& model) {
   std::string text = text_for(model.mesh);
   LegalNames object, groups;
   text += "# tetsoup: every face is a tet\no " + object.make(model.name, "body") + '\n';
-  for (const Vec3& v : model.mesh.vertices) {
+  for (const Vec3d& v : placed_points(model.mesh.vertices, model.mesh.origin)) {
     text += "v ";
     append_line(text, v.x, v.y, v.z);
   }

@@ -74,8 +74,8 @@ std::string abaqus_text(const TetModel& model) {
   const std::vector<std::string> regions = region_names(model, legal), pins = pin_names(model, legal);
   text += "** tetsoup\n*NODE, NSET=NALL\n";
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3& v = mesh.vertices[i];
-    append_row(text, i + 1, double{v.x}, double{v.y}, double{v.z});
+    const Vec3d v = placed(mesh.vertices[i], mesh.origin);
+    append_row(text, i + 1, v.x, v.y, v.z);
   }
   const auto lists = tets_by_region(model);
   for (std::size_t r = 0; r < lists.size(); ++r)

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/origin.h"
 #include "io/model_parts.h"
 #include "io/number_text.h"
 #include "io/text_capacity.h"
@@ -29,7 +30,7 @@ void append_value(std::string& text, Real value) {
   else
     text += "null";
 }
-void append_value(std::string& text, const Vec3& value) {
+void append_value(std::string& text, const Vec3d& value) {
   append_value(text, value.x);
   text += ',';
   append_value(text, value.y);
@@ -111,7 +112,7 @@ std::string json_text(const TetModel& model) {
   append_member(text += "{\n", "name", std::string_view(model.name));
   append_member(text += next, "up", name_of(model.up));
   append_member(text += next, "metres_per_unit", model.regions.front().material.metres_per_unit);
-  append_array(text += next, "vertices", model.mesh.vertices);
+  append_array(text += next, "vertices", placed_points(model.mesh.vertices, model.mesh.origin));
   append_array(text += next, "tets", model.mesh.tets);
   append_array(text += next, "edges", unique_edges(model.mesh));
   append_array(text += next, "surface", boundary_triangles(model.mesh));
@@ -120,7 +121,7 @@ std::string json_text(const TetModel& model) {
   append_pins(text += next, model);
   if (!model.render.face_sizes.empty()) {
     append_key(text += next, "render");
-    append_array(text += "{\n", "vertices", model.render.vertices);
+    append_array(text += "{\n", "vertices", placed_points(model.render.vertices, model.render.origin));
     append_array(text += next, "triangles", triangles_of(model.render).triangles);
     text += '}';
   }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/origin.h"
 #include "base/tet_faces.h"
 #include "base/tet_geometry.h"
 #include "io/model_parts.h"
@@ -92,7 +93,7 @@ std::string netgen_text(const TetModel& model) {
   }
   text += "\npoints\n";
   append_line(text, mesh.vertices.size());
-  for (const Vec3& v : mesh.vertices) append_line(text, v.x, v.y, v.z);
+  for (const Vec3d& v : placed_points(mesh.vertices, mesh.origin)) append_line(text, v.x, v.y, v.z);
   LegalNames legal;
   const std::vector<std::string> names = region_names(model, legal);
   append_names(text, "\nmaterials\n", names);

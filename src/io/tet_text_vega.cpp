@@ -33,7 +33,7 @@ std::string vega_text(const TetModel& model) {
   text += "# tetsoup\n\n*VERTICES\n";
   append_line(text, mesh.vertices.size(), 3, 0, 0);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3& v = mesh.vertices[i];
+    const Vec3d v = placed(mesh.vertices[i], mesh.origin);
     append_line(text, i + 1, v.x, v.y, v.z);
   }
   text += "\n*ELEMENTS\nTET\n";

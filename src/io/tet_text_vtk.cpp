@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/base64.h"
+#include "base/origin.h"
 #include "io/model_parts.h"
 #include "io/number_text.h"
 #include "io/raw_numbers.h"
@@ -15,6 +16,11 @@ namespace {
 
 void append_scalars(std::string& text, const std::string& name) {
   text += "SCALARS " + name + " int 1\nLOOKUP_TABLE default\n";
+}
+
+/// Floats are too coarse then.
+bool is_far(const TetMesh& mesh) {
+  return !(mesh.origin == Vec3d{});
 }
 
 std::vector<std::uint8_t> members(const VertexSet& set, std::size_t vertex_count) {
@@ -87,8 +93,8 @@ std::string vtk_text(const TetModel& model) {
   std::string text = text_for(mesh);
   text += "# vtk DataFile Version 3.0\ntetsoup\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ";
   append_number(text, mesh.vertices.size());
-  text += " float\n";
-  for (const Vec3& v : mesh.vertices) append_line(text, v.x, v.y, v.z);
+  text += is_far(mesh) ? " double\n" : " float\n";
+  for (const Vec3d& v : placed_points(mesh.vertices, mesh.origin)) append_line(text, v.x, v.y, v.z);
   text += "CELLS ";
   append_line(text, mesh.tets.size(), 5 * mesh.tets.size());
   for (const Tet& t : mesh.tets) append_line(text, 4, t[0], t[1], t[2], t[3]);
@@ -102,8 +108,10 @@ std::string vtk_text(const TetModel& model) {
 std::string vtu_text(const TetModel& model) {
   const TetMesh& mesh = model.mesh;
   std::string points, corners, offsets;
-  for (const Vec3& v : mesh.vertices)
-    for (const float coordinate : {v.x, v.y, v.z}) append_raw(points, coordinate);
+  for (const Vec3d& v : placed_points(mesh.vertices, mesh.origin)) {
+    for (const double coordinate : {v.x, v.y, v.z})
+      is_far(mesh) ? append_raw(points, coordinate) : append_raw(points, static_cast<float>(coordinate));
+  }
   for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
     for (const std::uint32_t corner : mesh.tets[i]) append_raw(corners, std::int64_t{corner});
     append_raw(offsets, static_cast<std::int64_t>(4 * (i + 1)));
@@ -118,7 +126,8 @@ std::string vtu_text(const TetModel& model) {
   text += "\">\n";
   append_xml_data(text, model);
   text += "      <Points>\n";
-  append_data_array(text, "type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\"", points);
+  const std::string type = is_far(mesh) ? "type=\"Float64\"" : "type=\"Float32\"";
+  append_data_array(text, type + " Name=\"Points\" NumberOfComponents=\"3\"", points);
   text += "      </Points>\n      <Cells>\n";
   append_data_array(text, "type=\"Int64\" Name=\"connectivity\"", corners);
   append_data_array(text, "type=\"Int64\" Name=\"offsets\"", offsets);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/origin.h"
 #include "io/usda_text.h"
 
 namespace tetsoup {
@@ -109,6 +110,7 @@ void write_subsets(UsdaWriter& usd, const RenderMesh& mesh, const std::vector<Fa
 void write_usda_render_mesh(UsdaWriter& usd, const TetModel& model) {
   const RenderMesh& mesh = model.render;
   const std::vector<Face> faces = usable_faces(mesh);
+  const std::vector<Vec3> points = recounted(mesh.vertices, mesh.origin, model.mesh.origin);
   std::vector<std::uint32_t> sizes, corners;
   for (const Face& face : faces) {
     sizes.push_back(static_cast<std::uint32_t>(face.size));
@@ -116,15 +118,15 @@ void write_usda_render_mesh(UsdaWriter& usd, const TetModel& model) {
   }
   usd.open("Mesh", "RenderMesh",
            {usda_schemas({"PhysicsDeformablePoseAPI:default", "OmniPhysicsDeformablePoseAPI:default"})});
-  usd.array("point3f[] deformablePose:default:omniphysics:points", mesh.vertices);
+  usd.array("point3f[] deformablePose:default:omniphysics:points", points);
   usd.line("uniform token[] deformablePose:default:omniphysics:purposes", "[\"bindPose\"]");
   usd.line("uniform bool doubleSided", "1");
-  write_usda_extent(usd, mesh.vertices);
+  write_usda_extent(usd, points);
   usd.array("int[] faceVertexCounts", sizes);
   usd.array("int[] faceVertexIndices", corners);
-  usd.array("point3f[] physics:deformablePose:default:points", mesh.vertices);
+  usd.array("point3f[] physics:deformablePose:default:points", points);
   usd.line("uniform token[] physics:deformablePose:default:purposes", "[\"bindPose\"]");
-  usd.array("point3f[] points", mesh.vertices);
+  usd.array("point3f[] points", points);
   write_normals(usd, mesh, faces);
   write_texcoords(usd, mesh, faces);
   write_embedding_primvars(usd, model);

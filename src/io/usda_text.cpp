@@ -140,10 +140,17 @@ std::string usda_text(const TetModel& model) {
                   std::string("upAxis = ") + up_axis(model)});
   usd.open("Xform", body,
            {usda_schemas({"PhysicsDeformableBodyAPI", "OmniPhysicsDeformableBodyAPI"}), "kind = \"component\""});
+  std::string order;
   if (model.up == UpAxis::X) {
     usd.line("float xformOp:rotateY", "-90");
-    usd.line("uniform token[] xformOpOrder", "[\"xformOp:rotateY\"]");
+    order = "\"xformOp:rotateY\"";
   }
+  if (!(model.mesh.origin == Vec3d{})) {
+    const auto& [x, y, z] = model.mesh.origin;
+    usd.line("double3 xformOp:translate", '(' + number(x) + ", " + number(y) + ", " + number(z) + ')');
+    order += order.empty() ? "\"xformOp:translate\"" : ", \"xformOp:translate\"";
+  }
+  if (!order.empty()) usd.line("uniform token[] xformOpOrder", '[' + order + ']');
   write_material(usd, "PhysicsMaterial", mean_material(model));
   write_tet_mesh(usd, model, '/' + body + "/PhysicsMaterial");
   if (has_render_mesh(model)) write_usda_render_mesh(usd, model);

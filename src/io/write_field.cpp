@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/require.h"
+#include "base/vec.h"
 #include "io/atomic_file.h"
 #include "io/number_text.h"
 #include "io/raw_numbers.h"
@@ -60,7 +61,8 @@ std::string header_of(const DistanceField& field) {
       "       signed_distance is negative inside. -->\n"
       "  <ImageData";
   append_extent(text, "WholeExtent", frame.size);
-  append_triple(text, "Origin", frame.origin.x, frame.origin.y, frame.origin.z);
+  const Vec3d origin = frame.origin + frame.soup_origin;
+  append_triple(text, "Origin", origin.x, origin.y, origin.z);
   append_triple(text, "Spacing", frame.voxel_size, frame.voxel_size, frame.voxel_size);
   text += ">\n    <FieldData>\n";
   if (std::isfinite(field.band)) append_constant(text, "known_up_to", field.band);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/origin.h"
 #include "base/require.h"
 #include "base/vec.h"
 #include "io/atomic_file.h"
@@ -22,7 +23,7 @@ namespace {
 constexpr std::size_t kStlHeaderBytes = 80;
 
 // The vertices that triangles use, in their order.
-TriangleSoup used_part(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+TriangleSoup used_part(std::span<const Vec3> vertices, std::span<const Triangle> triangles, const Vec3d& origin) {
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> renamed(vertices.size(), kUnused);
   for (const Triangle& triangle : triangles)
@@ -30,7 +31,7 @@ TriangleSoup used_part(std::span<const Vec3> vertices, std::span<const Triangle>
       require(vertex < vertices.size(), "vertex of a triangle", vertex, "below the number of vertices");
       renamed[vertex] = 0;
     }
-  TriangleSoup part;
+  TriangleSoup part{{}, {}, origin};
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (renamed[i] == kUnused) continue;
     renamed[i] = static_cast<std::uint32_t>(part.vertices.size());
@@ -43,13 +44,14 @@ TriangleSoup used_part(std::span<const Vec3> vertices, std::span<const Triangle>
 
 std::string obj_text(const TriangleSoup& soup) {
   std::string text;
-  for (const Vec3& v : soup.vertices) append_line(text += "v ", v.x, v.y, v.z);
+  for (const Vec3d& v : placed_points(soup.vertices, soup.origin)) append_line(text += "v ", v.x, v.y, v.z);
   for (const Triangle& t : soup.triangles) append_line(text += "f ", t[0] + 1, t[1] + 1, t[2] + 1);
   return text;
 }
 
-void append_point(std::string& bytes, const Vec3& point) {
-  for (const float coordinate : {point.x, point.y, point.z}) append_raw(bytes, coordinate);
+template <class Point>
+void append_point(std::string& bytes, const Point& point) {
+  for (const auto coordinate : {point.x, point.y, point.z}) append_raw(bytes, coordinate);
 }
 
 // Zero for triangles without area, as STL readers expect.
@@ -65,19 +67,24 @@ std::string stl_bytes(const TriangleSoup& soup) {
   append_raw(bytes, static_cast<std::uint32_t>(soup.triangles.size()));
   for (const Triangle& t : soup.triangles) {
     const Vec3 &a = soup.vertices[t[0]], &b = soup.vertices[t[1]], &c = soup.vertices[t[2]];
-    for (const Vec3& point : {unit_normal(a, b, c), a, b, c}) append_point(bytes, point);
+    append_point(bytes, unit_normal(a, b, c));
+    for (const Vec3& corner : {a, b, c}) append_point(bytes, to_float(placed(corner, soup.origin)));
     append_raw(bytes, std::uint16_t{0});
   }
   return bytes;
 }
 
+/// Doubles where floats are too coarse.
 std::string ply_bytes(const TriangleSoup& soup) {
+  const bool far = !(soup.origin == Vec3d{});
+  const std::string type = far ? "double" : "float";
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex ";
   append_number(bytes, soup.vertices.size());
-  bytes += "\nproperty float x\nproperty float y\nproperty float z\nelement face ";
+  for (const char* axis : {"x", "y", "z"}) bytes += "\nproperty " + type + ' ' + axis;
+  bytes += "\nelement face ";
   append_number(bytes, soup.triangles.size());
   bytes += "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (const Vec3& v : soup.vertices) append_point(bytes, v);
+  for (const Vec3& v : soup.vertices) far ? append_point(bytes, placed(v, soup.origin)) : append_point(bytes, v);
   for (const Triangle& t : soup.triangles) {
     append_raw(bytes, std::uint8_t{3});
     for (const std::uint32_t vertex : t) append_raw(bytes, static_cast<std::int32_t>(vertex));
@@ -109,8 +116,8 @@ SurfaceFormat surface_format_of(const std::filesystem::path& path) {
 }
 
 void write_surface(const std::filesystem::path& path, std::span<const Vec3> vertices,
-                   std::span<const Triangle> triangles) {
-  const std::string bytes = surface_bytes(surface_format_of(path), used_part(vertices, triangles));
+                   std::span<const Triangle> triangles, const Vec3d& origin) {
+  const std::string bytes = surface_bytes(surface_format_of(path), used_part(vertices, triangles, origin));
   AtomicFile file(path);
   file.write(bytes);
   file.commit();

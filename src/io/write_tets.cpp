@@ -91,7 +91,7 @@ std::vector<fs::path> write_tets(const fs::path& path, const TetModel& model, st
   require_valid(model);
   const TetFormat chosen = format ? *format : tet_format_of(path);
   if (chosen != TetFormat::Surface) return write_together(tet_texts(path, model, chosen));
-  write_surface(path, model.mesh.vertices, boundary_triangles(model.mesh));
+  write_surface(path, model.mesh.vertices, boundary_triangles(model.mesh), model.mesh.origin);
   return {path};
 }
 

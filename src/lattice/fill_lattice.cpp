@@ -138,6 +138,7 @@ std::size_t count_used_cells(const TetMesh& mesh, const LatticeFrame& frame) {
 LatticeMesh finished(const Fill& fill, const Filler& filler, const PseudoVolume& volume, int fills) {
   LatticeMesh result;
   result.mesh = kept_mesh(fill.candidates);
+  result.mesh.origin = volume.inside.frame.soup_origin;
   TETSOUP_ASSERT(!result.mesh.tets.empty());  // a finite triangle always touches a tet
   LatticeReport& report = result.report;
   report = fill.mended;

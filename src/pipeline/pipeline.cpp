@@ -227,7 +227,9 @@ LatticeMesh Pipeline::lattice_of(Body& body, std::size_t tets, const Progress& p
   if (own.vertices) {
     own.vertices = std::max<std::size_t>(4, tets);
   } else if (tets < kFewestTets) {
-    return single_tet(body.own_soup.report.box, body.size.volume);
+    LatticeMesh single = single_tet(body.own_soup.report.box, body.size.volume);
+    single.mesh.origin = soup_.soup.origin;
+    return single;
   } else {
     own.tets = tets;
   }

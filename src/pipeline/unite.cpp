@@ -14,6 +14,7 @@ void append(TetMesh& all, const TetMesh& mesh) {
   const auto base = static_cast<std::uint32_t>(all.vertices.size());
   all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
   for (const auto& [a, b, c, d] : mesh.tets) all.tets.push_back({a + base, b + base, c + base, d + base});
+  all.origin = mesh.origin;
 }
 
 /// Marks the voxels of `grid` whose centres lie in inside voxels of a body.
@@ -156,6 +157,7 @@ SmoothResult united_smooth(const std::vector<const SmoothResult*>& bodies) {
 
 TetMesh take_mesh(const TetMesh& all, const TetMesh& like, MeshPlace& place) {
   TetMesh mesh;
+  mesh.origin = all.origin;
   const auto base = static_cast<std::uint32_t>(place.vertex);
   const auto from = all.vertices.begin() + static_cast<std::ptrdiff_t>(place.vertex);
   mesh.vertices.assign(from, from + static_cast<std::ptrdiff_t>(like.vertices.size()));

@@ -83,6 +83,7 @@ CleanSoup rims_of(const CleanSoup& soup) {
   }
   for (const auto& [a, b] : soup.parts.odd_edges) rims.soup.triangles.push_back({name[a], name[a], name[b]});
   rims.report = soup.report;
+  rims.soup.origin = soup.soup.origin;
   rims.report.used_triangles = rims.soup.triangles.size();
   return rims;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/origin.h"
 #include "base/parallel.h"
 #include "base/triangle_boxes.h"
 #include "base/vec.h"
@@ -52,7 +53,11 @@ BoundaryDistance boundary_distance(const TetMesh& mesh, const TriangleSoup& soup
   const Progress nobody;
   StageWatch watch(nobody, "quality");
   const std::vector<Triangle> boundary = boundary_triangles(mesh);
-  const TriangleBoxes boxes(soup, watch);
+  const bool is_near = soup.origin == mesh.origin;
+  const TriangleSoup near =
+      is_near ? TriangleSoup{}
+              : TriangleSoup{recounted(soup.vertices, soup.origin, mesh.origin), soup.triangles, mesh.origin};
+  const TriangleBoxes boxes(is_near ? soup : near, watch);
   if (boundary.empty() || boxes.empty()) return {};
   constexpr std::int64_t kGrain = 64;
   std::vector<std::vector<Sample>> chunks(

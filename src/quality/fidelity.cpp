@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "base/origin.h"
 #include "base/parallel.h"
 #include "base/tet_locator.h"
 #include "base/triangle_boxes.h"
@@ -169,6 +170,9 @@ void measure_tilt(const TetMesh& mesh, const MeshSkin& skin, const TriangleBoxes
 }  // namespace
 
 Fidelity measure_fidelity(const TetMesh& mesh, const TriangleSoup& soup) {
+  if (!(mesh.origin == soup.origin))
+    return measure_fidelity(
+        mesh, TriangleSoup{recounted(soup.vertices, soup.origin, mesh.origin), soup.triangles, mesh.origin});
   Fidelity found;
   const MeshSkin skin = find_skin(mesh);
   found.mean_edge = skin.mean_edge;

@@ -1,5 +1,6 @@
 #include "base/bits.h"
 #include "base/mesh_voxels.h"
+#include "base/origin.h"
 #include "base/parallel.h"
 #include "tetsoup/quality.h"
 
@@ -23,7 +24,10 @@ double intersection_over_union(const TetMesh& mesh, const BitGrid& inside) {
   if (inside.frame.voxel_count() == 0) return 1;
   const Progress nobody;
   StageWatch watch(nobody, "quality");
-  const MeshVoxels voxels = count_mesh_voxels(mesh, inside, watch);
+  const Vec3d& origin = inside.frame.soup_origin;
+  const bool is_near = mesh.origin == origin;
+  const TetMesh near = is_near ? TetMesh{} : TetMesh{recounted(mesh.vertices, mesh.origin, origin), mesh.tets, origin};
+  const MeshVoxels voxels = count_mesh_voxels(is_near ? mesh : near, inside, watch);
   const std::size_t in_either = voxels.in_mesh + count_inside(inside, watch) - voxels.in_both;
   return in_either == 0 ? 1 : static_cast<double>(voxels.in_both) / static_cast<double>(in_either);
 }

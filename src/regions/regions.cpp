@@ -66,7 +66,7 @@ template <class Holds>
 std::vector<std::uint32_t> vertices_where(const TetMesh& mesh, const Holds& holds) {
   std::vector<std::uint32_t> vertices;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    if (holds(to_double(mesh.vertices[v]))) vertices.push_back(v);
+    if (holds(placed(mesh.vertices[v], mesh.origin))) vertices.push_back(v);
   return vertices;
 }
 
@@ -76,14 +76,14 @@ std::vector<std::uint32_t> label_tets(const TetMesh& mesh, const TriangleSoup& s
                                       std::span<const std::uint32_t> labels, const Progress& progress) {
   const auto centre = [&](std::size_t t) {
     const TetCorners p = corners_of(mesh, mesh.tets[t]);
-    return (p[0] + p[1] + p[2] + p[3]) * 0.25;
+    return (p[0] + p[1] + p[2] + p[3]) * 0.25 + (mesh.origin - soup.origin);
   };
   return nearest_labels(mesh.tets.size(), centre, soup, labels, progress);
 }
 
 std::vector<std::uint32_t> label_vertices(const TetMesh& mesh, const TriangleSoup& soup,
                                           std::span<const std::uint32_t> labels, const Progress& progress) {
-  const auto vertex = [&](std::size_t v) { return to_double(mesh.vertices[v]); };
+  const auto vertex = [&](std::size_t v) { return to_double(mesh.vertices[v]) + (mesh.origin - soup.origin); };
   return nearest_labels(mesh.vertices.size(), vertex, soup, labels, progress);
 }
 

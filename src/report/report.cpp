@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "base/vec.h"
+
 namespace tetsoup {
 
 namespace {
@@ -64,7 +66,8 @@ const char* soup_class_name(SoupClass kind) {
 
 std::string to_json(const SoupReport& soup) {
   Json box = nullptr;
-  if (soup.kind != SoupClass::Empty) box = {{"lo", vector_json(soup.box.lo)}, {"hi", vector_json(soup.box.hi)}};
+  if (soup.kind != SoupClass::Empty)
+    box = {{"lo", vector_json(soup.box.lo + soup.origin)}, {"hi", vector_json(soup.box.hi + soup.origin)}};
   return text_of({{"class", soup_class_name(soup.kind)},
                   {"vertex_count", soup.vertex_count},
                   {"triangle_count", soup.triangle_count},
@@ -78,7 +81,8 @@ std::string to_json(const SoupReport& soup) {
                   {"boundary_edges", soup.boundary_edges},
                   {"non_manifold_edges", soup.non_manifold_edges},
                   {"inconsistent_edges", soup.inconsistent_edges},
-                  {"box", box}});
+                  {"box", box},
+                  {"origin", vector_json(soup.origin)}});
 }
 
 std::string to_json(const Quality& quality) {
@@ -141,7 +145,7 @@ std::string to_json(const Fidelity& fidelity) {
 std::string to_json(const GridFrame& frame) {
   return text_of({{"size", frame.size},
                   {"pad", frame.pad},
-                  {"origin", vector_json(frame.origin)},
+                  {"origin", vector_json(frame.origin + frame.soup_origin)},
                   {"voxel_size", frame.voxel_size},
                   {"memory_bytes", grid_memory(frame)}});
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/base64.h"
+#include "base/origin.h"
 #include "report/page_template.h"
 #include "tetsoup/error.h"
 #include "tetsoup/io.h"
@@ -40,9 +41,10 @@ Json mesh_json(const TetMesh& mesh) {
           {"angles", encoded<float>(angles)}};
 }
 
-Json surface_json(const TriangleSoup* soup) {
+Json surface_json(const TriangleSoup* soup, const Vec3d& origin) {
   if (!soup || soup->triangles.empty()) return nullptr;
-  return {{"vertices", encoded<Vec3>(soup->vertices)}, {"triangles", encoded<Triangle>(soup->triangles)}};
+  return {{"vertices", encoded<Vec3>(recounted(soup->vertices, soup->origin, origin))},
+          {"triangles", encoded<Triangle>(soup->triangles)}};
 }
 
 Json parsed(const ReportPage& page) {
@@ -80,7 +82,7 @@ std::string report_page(const ReportPage& page) {
                   {"up", page.up},
                   {"metres_per_unit", page.metres_per_unit},
                   {"mesh", mesh_json(*page.mesh)},
-                  {"surface", surface_json(page.soup)},
+                  {"surface", surface_json(page.soup, page.mesh->origin)},
                   {"report", parsed(page)}};
   std::string html(page_template::kBeforeData);
   html += without_tags(data.dump(-1, ' ', false, Json::error_handler_t::replace));

@@ -68,15 +68,16 @@ class Loader {
     if (obstacle.plane)
       return loaded_.simulation.add_plane(obstacle.plane->normal, obstacle.plane->offset, obstacle.friction);
     RenderMesh surface = make_surface(obstacle.source, loaded_.scene.folder);
-    to_metres(unit_of(path, obstacle.source, surface.vertices), surface.vertices);
+    to_metres(unit_of(path, obstacle.source, surface.vertices, surface.origin), surface.vertices, surface.origin);
     TriangleSoup soup = clean_soup(triangles_of(surface), progress_).soup;
     check_number(path + ": its longest side as placed, m", longest_side(soup.vertices) * obstacle.place.scale,
                  kPlacedSizeRange);
     for (Vec3& p : soup.vertices) {
-      const Vec3d at = placed(obstacle.place, to_double(p));
+      const Vec3d at = placed(obstacle.place, tetsoup::placed(p, soup.origin));
       for (const double v : {at.x, at.y, at.z}) check_number(member_path(path, "place"), v, kPlaceRange);
       p = to_float(at);
     }
+    soup.origin = {};
     loaded_.simulation.add_obstacle(soup, obstacle.voxels, obstacle.friction, progress_);
     loaded_.obstacles.push_back({obstacle.name.empty() ? name_of(obstacle.source) : obstacle.name, std::move(soup)});
   }
@@ -121,12 +122,12 @@ class Loader {
     Unit unit;
     if (!body.source.tets_file.empty()) {
       asset.mesh = read_tets(loaded_.scene.folder / body.source.tets_file);
-      unit = unit_of(path, body.source, asset.mesh.vertices);
-      to_metres(unit, asset.mesh.vertices);
+      unit = unit_of(path, body.source, asset.mesh.vertices, asset.mesh.origin);
+      to_metres(unit, asset.mesh.vertices, asset.mesh.origin);
     } else {
       asset.surface = make_surface(body.source, loaded_.scene.folder);
-      unit = unit_of(path, body.source, asset.surface.vertices);
-      to_metres(unit, asset.surface.vertices);
+      unit = unit_of(path, body.source, asset.surface.vertices, asset.surface.origin);
+      to_metres(unit, asset.surface.vertices, asset.surface.origin);
       MeshOptions options = body.mesh;
       options.memory_limit = usable_memory();
       asset.mesh = mesh_soup(triangles_of(asset.surface), options, progress_);
@@ -135,7 +136,7 @@ class Loader {
     if (!body.surface) asset.surface = {};
     if (body.surface && !body.surface_file.empty()) {
       asset.surface = read_render_mesh(loaded_.scene.folder / body.surface_file);
-      to_metres(unit, asset.surface.vertices);
+      to_metres(unit, asset.surface.vertices, asset.surface.origin);
     }
     if (asset.has_surface()) asset.embedding = embed_points(asset.mesh, triangles_of(asset.surface), {}, progress_);
     return asset;
@@ -160,7 +161,7 @@ class Loader {
   }
 
   static std::string extent_words(const TetMesh& mesh) {
-    const Box3 box = box_of(mesh.vertices);
+    const Box3 around = box_of(mesh.vertices), box{around.lo + mesh.origin, around.hi + mesh.origin};
     const auto words = [](const Vec3d& p) {
       return "[" + number_words(std::round(p.x * 1e4) / 1e4) + ", " + number_words(std::round(p.y * 1e4) / 1e4) + ", " +
              number_words(std::round(p.z * 1e4) / 1e4) + "]";
@@ -192,8 +193,8 @@ class Loader {
     std::uint32_t nearest = mesh.tets.front()[0];
     for (const Tet& tet : mesh.tets)
       for (const std::uint32_t v : tet)
-        if (squared_length(to_double(mesh.vertices[v]) - spring.at) <
-            squared_length(to_double(mesh.vertices[nearest]) - spring.at))
+        if (squared_length(tetsoup::placed(mesh.vertices[v], mesh.origin) - spring.at) <
+            squared_length(tetsoup::placed(mesh.vertices[nearest], mesh.origin) - spring.at))
           nearest = v;
     loaded_.simulation.add_spring({body, nearest}, spring.to, spring.stiffness);
   }

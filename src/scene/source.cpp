@@ -94,7 +94,7 @@ double longest_side(std::span<const Vec3> points) {
   return std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z});
 }
 
-Unit unit_of(const std::string& path, const SceneSource& source, std::span<const Vec3> points) {
+Unit unit_of(const std::string& path, const SceneSource& source, std::span<const Vec3> points, const Vec3d& origin) {
   const auto [lo, hi] = finite_box_of(points);
   const double longest = longest_side(points);
   if (longest < 0) throw Problem(path, "there is no point in it");
@@ -104,13 +104,17 @@ Unit unit_of(const std::string& path, const SceneSource& source, std::span<const
   if (source.origin != SceneOrigin::Own) {
     unit.origin = (lo + hi) * 0.5;
     if (source.origin == SceneOrigin::Bottom) unit.origin.z = lo.z;
+    unit.origin += origin;
   }
   return unit;
 }
 
-void to_metres(const Unit& unit, std::vector<Vec3>& points) {
+void to_metres(const Unit& unit, std::vector<Vec3>& points, Vec3d& origin) {
+  const bool stays = unit.origin == Vec3d{};
+  const Vec3d zero = stays ? Vec3d{} : unit.origin - origin;
   for (Vec3& p : points)
-    if (is_finite(p)) p = to_float((to_double(p) - unit.origin) * unit.metres);
+    if (is_finite(p)) p = to_float((to_double(p) - zero) * unit.metres);
+  origin = stays ? origin * unit.metres : Vec3d{};
 }
 
 RenderMesh make_surface(const SceneSource& source, const std::filesystem::path& folder) {

@@ -9,17 +9,17 @@ namespace tetsoup::scene {
 /// How a source's own numbers become metres: (p - origin) * metres.
 struct Unit {
   double metres = 1;
-  Vec3d origin;  ///< In the source's unit.
+  Vec3d origin;  ///< In the source's unit and place.
 };
 
 /// Of the box of all finite points; below 0 if there is none.
 double longest_side(std::span<const Vec3> points);
 
 /// @throws Problem  if the points have no extent, or one that no size or unit makes sense of.
-Unit unit_of(const std::string& path, const SceneSource& source, std::span<const Vec3> points);
+Unit unit_of(const std::string& path, const SceneSource& source, std::span<const Vec3> points, const Vec3d& origin);
 
-/// Finite points only; others stay what they are.
-void to_metres(const Unit& unit, std::vector<Vec3>& points);
+/// Finite points only; others stay what they are. `origin` is what they are counted from, before and after.
+void to_metres(const Unit& unit, std::vector<Vec3>& points, Vec3d& origin);
 
 /// Its triangles as they come, in its own unit; not of a tets_file.
 RenderMesh make_surface(const SceneSource& source, const std::filesystem::path& folder);

@@ -158,8 +158,15 @@ class Addition {
 void add_bodies(World& world, const TetMesh& mesh, const SimMaterial& material, std::span<const Pose> poses) {
   check(material);
   std::vector<Make> makes;  // of poses with one scale after the other
+  // What the vertices are counted from is placed along with them.
+  std::vector<Pose> placed_poses(poses.begin(), poses.end());
+  for (Pose& pose : placed_poses) {
+    const Vec3d origin = mesh.origin * (pose.scale * material.elastic.metres_per_unit);
+    if (!(mesh.origin == Vec3d{})) pose.translate += rotation_of(pose.rotate).turned(origin);
+    check(pose);
+  }
+  poses = placed_poses;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    check(poses[i]);
     if (i == 0 || poses[i].scale != poses[i - 1].scale)
       makes.push_back(make(mesh, material, poses[i].scale * material.elastic.metres_per_unit, world.options));
     check_reach(makes.back(), poses[i]);

@@ -74,6 +74,8 @@ Grid<float> signed_distance(const TriangleSoup& soup, int voxels, const Progress
   const DistanceField field = unsigned_distance(clean, options, progress);
   const PseudoVolume volume = classify_volume(field, {}, progress);
   Grid<float> result = dense(field.distance);
+  result.frame.origin += result.frame.soup_origin;
+  result.frame.soup_origin = {};
   const auto [nx, ny, nz] = result.frame.size;
   for (int z = 0; z < nz; ++z)
     for (int y = 0; y < ny; ++y)

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/origin.h"
 #include "base/parallel.h"
 #include "base/vec.h"
+#include "base/words.h"
 #include "base/merge_vertices.h"
 #include "soup/diagnose.h"
 #include "soup/find_parts.h"
@@ -94,7 +96,22 @@ std::size_t count_without_area(const TriangleSoup& soup, StageWatch& watch) {
   return parallel_sum<std::size_t>(static_cast<std::int64_t>(soup.triangles.size()), kGrain, watch, count);
 }
 
+/// Floats, which half of the formats and most engines hold, are too coarse there.
+std::string place_note(const Vec3d& origin) {
+  constexpr int kDigits = 12;
+  const auto text = [](double x) { return rounded(x, kDigits); };
+  return "The model lies far from zero for its size, around (" + text(origin.x) + ", " + text(origin.y) + ", " +
+         text(origin.z) +
+         "). What reads its files as floats, as most engines do, rounds there: --recentre leaves that "
+         "offset out.";
+}
+
 }  // namespace
+
+TriangleSoup make_soup(std::span<const Vec3d> vertices, std::vector<Triangle> triangles) {
+  const Vec3d origin = origin_of(vertices, flat(std::span<const Triangle>(triangles)));
+  return {counted_from(origin, vertices), std::move(triangles), origin};
+}
 
 CleanSoup clean_soup(const TriangleSoup& soup, const Progress& progress) {
   StageWatch watch(progress, "soup");
@@ -113,6 +130,7 @@ CleanSoup clean_soup(const TriangleSoup& soup, const Progress& progress) {
 
   std::vector<WindingOf> windings;
   drop_duplicates(ordered, clean.soup.triangles, windings);
+  clean.soup.origin = report.origin = soup.origin;
   report.duplicates = triangles.size() - clean.soup.triangles.size();
   clean.parts = find_parts(clean.soup, windings, watch);
   watch.enter_part(0.9, 1);
@@ -120,6 +138,7 @@ CleanSoup clean_soup(const TriangleSoup& soup, const Progress& progress) {
   report.used_triangles = clean.soup.triangles.size();
   report.merged_vertices = clean.soup.vertices.size();
   report.box = box_of(clean.soup.vertices);
+  if (!(soup.origin == Vec3d{})) report.notes.push_back(place_note(soup.origin));
   return clean;
 }
 

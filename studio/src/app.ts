@@ -1,6 +1,6 @@
 // The page: what the user does becomes settings, settings become wishes to the worker, and replies become pictures.
 import { Client } from './core/client';
-import type { Catalog, MeshResult, PlayStart, Reply, Report, Slice, SoupReport } from './core/protocol';
+import type { Catalog, MeshResult, PlayStart, Reply, Report, Slice, SoupReport, Vec3 } from './core/protocol';
 import { Play } from './play';
 import { Source } from './source';
 import { fromAddress, kUnits, meshOptions, type Settings, Store, toAddress } from './state';
@@ -148,7 +148,9 @@ export class App {
     this.root.dataset.state = 'soup';
     this.empty.hidden = true;
     this.viewport.setModel(true);
-    this.view.setSoup(surface, report.box);
+    // Vertices are counted from the origin, the report's box is not.
+    const near = (corner: Vec3) => corner.map((x, i) => x - report.origin[i]) as Vec3;
+    this.view.setSoup(surface, { lo: near(report.box.lo), hi: near(report.box.hi) });
     const { now } = this.store;
     this.header.setModel(now.file || `${words.title(now.sample)}${now.damage ? `, ${now.damage} % damaged` : ''}`);
     this.panels?.report('embedding', '', []);

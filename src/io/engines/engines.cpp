@@ -10,6 +10,7 @@
 
 #include "base/listing.h"
 #include "base/require.h"
+#include "base/vec.h"
 #include "io/engines/engine_table.h"
 #include "io/engines/scenes.h"
 #include "io/file_names.h"
@@ -34,6 +35,8 @@ TetModel in_metres(TetModel model) {
   if (unit != 1) {
     scale(model.mesh.vertices, unit);
     scale(model.render.vertices, unit);
+    model.mesh.origin = model.mesh.origin * unit;
+    model.render.origin = model.render.origin * unit;
     for (float& distance : model.embedding.distances) distance = narrow(distance * unit);
     model.embedding.report.max_distance *= unit;
   }

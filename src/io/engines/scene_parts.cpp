@@ -38,9 +38,9 @@ struct Extent {
 };
 
 // In the scene's axes.
-std::array<double, 3> upright(const Vec3& v, UpAxis up) {
-  if (up == UpAxis::Y) return {v.x, -double{v.z}, v.y};
-  if (up == UpAxis::X) return {-double{v.z}, v.y, v.x};
+std::array<double, 3> upright(const Vec3d& v, UpAxis up) {
+  if (up == UpAxis::Y) return {v.x, -v.z, v.y};
+  if (up == UpAxis::X) return {-v.z, v.y, v.x};
   return {v.x, v.y, v.z};
 }
 
@@ -48,7 +48,7 @@ Extent extent_of(const TetModel& model) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Extent e{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   for (const Vec3& v : model.mesh.vertices) {
-    const auto p = upright(v, model.up);
+    const auto p = upright(placed(v, model.mesh.origin), model.up);
     for (std::size_t i = 0; i < 3; ++i) {
       e.low[i] = std::min(e.low[i], p[i]);
       e.high[i] = std::max(e.high[i], p[i]);
@@ -139,6 +139,19 @@ std::string upright_xyzw(UpAxis up, std::string_view between) {
   return text.substr(first + between.size()) + std::string(between) + text.substr(0, first);
 }
 
+namespace {
+
+/// With all digits where the body lies far from zero for its size, so that it comes to rest where it should.
+std::string shift_text(double shift, const Drop& drop) {
+  constexpr double kFar = 16;
+  if (std::abs(shift) <= kFar * drop.height) return brief(shift);
+  std::string text;
+  append_number(text, shift);
+  return text;
+}
+
+}  // namespace
+
 Gaps gaps_of(const Drop& drop, Gaps more) {
   more.insert(more.end(), {{"name", drop.name},
                            {"why", drop.stiffness_why},
@@ -147,9 +160,9 @@ Gaps gaps_of(const Drop& drop, Gaps more) {
                            {"density", brief(drop.density)},
                            {"young", brief(drop.young)},
                            {"poisson", brief(drop.poisson)},
-                           {"x", brief(drop.x)},
-                           {"y", brief(drop.y)},
-                           {"lift", brief(drop.lift)}});
+                           {"x", shift_text(drop.x, drop)},
+                           {"y", shift_text(drop.y, drop)},
+                           {"lift", shift_text(drop.lift, drop)}});
   return more;
 }
 

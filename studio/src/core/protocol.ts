@@ -46,6 +46,7 @@ export interface SoupReport {
   non_manifold_edges: number;
   inconsistent_edges: number;
   box: Box;
+  origin: [number, number, number];
 }
 export interface Quality {
   vertex_count: number;
