@@ -40,26 +40,53 @@ TEST_F(Tool, prints_its_version) {
 }
 
 TEST_F(Tool, refuses_an_option_out_of_range_by_its_name) {
-  const std::vector<std::array<std::string, 2>> wrong{
-      {"--voxels", "0"},         {"--voxels", "12abc"},   {"--voxels", "1e2"},
-      {"--voxels", "4097"},      {"--voxels", ""},        {"--voxels", "99999999999"},
-      {"--voxel-size", "0"},     {"--voxel-size", "nan"}, {"--voxel-size", "inf"},
-      {"--voxel-size", "0x1p3"}, {"--k", "1.01"},         {"--k", "0"},
-      {"--edge", "1e300"},       {"--k", "automatic"},    {"--band-voxels", "-1"},
-      {"--band-voxels", "4097"}, {"--band", "1,5"},       {"--rays", "14"},
-      {"--placement", "Entry"},  {"--cavities", "both"},  {"--cells", "1025"},
-      {"--tets", "0"},           {"--tets", "2e3"},       {"--vertices", "-5"},
-      {"--edge", "0"},           {"--lattice", "fcc"},    {"--cell-size", "1e999"},
-      {"--rho-min", "0"},        {"--translate", "1,2"},  {"--translate", "1,2,3,4"},
-      {"--rotate", "1,nan,0"},   {"--rotate", "1, 2,3"},  {"--passes", "-1"},
-      {"--passes", "2.5"},       {"--strength", "0"},     {"--min-angle", "60"},
-      {"--threads", "-1"},       {"--memory", "0"},       {"--format", "docx"}};
+  const std::vector<std::array<std::string, 2>> wrong{{"--voxels", "0"},
+                                                      {"--voxels", "12abc"},
+                                                      {"--voxels", "1e2"},
+                                                      {"--voxels", "4097"},
+                                                      {"--voxels", ""},
+                                                      {"--voxels", "99999999999"},
+                                                      {"--voxel-size", "0"},
+                                                      {"--voxel-size", "nan"},
+                                                      {"--voxel-size", "inf"},
+                                                      {"--voxel-size", "0x1p3"},
+                                                      {"--k", "1.01"},
+                                                      {"--k", "0"},
+                                                      {"--k", "automatic"},
+                                                      {"--band-voxels", "-1"},
+                                                      {"--band-voxels", "4097"},
+                                                      {"--band", "1,5"},
+                                                      {"--rays", "14"},
+                                                      {"--placement", "Entry"},
+                                                      {"--cavities", "both"},
+                                                      {"--cells", "1025"},
+                                                      {"--tets", "0"},
+                                                      {"--tets", "2e3"},
+                                                      {"--vertices", "-5"},
+                                                      {"--edge", "0"},
+                                                      {"--lattice", "fcc"},
+                                                      {"--cell-size", "1e999"},
+                                                      {"--rho-min", "0"},
+                                                      {"--translate", "1,2"},
+                                                      {"--translate", "1,2,3,4"},
+                                                      {"--rotate", "1,nan,0"},
+                                                      {"--rotate", "1, 2,3"},
+                                                      {"--passes", "-1"},
+                                                      {"--passes", "2.5"},
+                                                      {"--strength", "0"},
+                                                      {"--min-angle", "60"},
+                                                      {"--threads", "-1"},
+                                                      {"--memory", "0"},
+                                                      {"--format", "docx"}};
   for (const auto& [flag, value] : wrong) {
     const Outcome outcome = run({"mesh", "cube.obj", "-o", "x.msh", flag, value});
     EXPECT_EQ(outcome.exit_code, 2) << flag << " " << value;
     expect_error_line(outcome, {flag});
     EXPECT_EQ(outcome.out, "");
   }
+  const Outcome huge = run({"mesh", "cube.obj", "-o", "x.msh", "--edge", "1e300"});  // only the mesher knows the box
+  EXPECT_EQ(huge.exit_code, 2);
+  expect_error_line(huge, {"edge = 1e+300", "the box"});
   EXPECT_EQ(files(), Words{"cube.obj"});
 }
 

@@ -204,7 +204,8 @@ TEST_F(ModelTool, a_model_in_map_coordinates_is_the_same_there_and_recentred_wit
   EXPECT_EQ(near["pins"], far["pins"]);
   EXPECT_EQ(zero["pins"], far["pins"]);
   for (std::size_t i = 0; i < far["vertices"].size(); ++i) {
-    ASSERT_NEAR(near["vertices"][i].get<double>() + std::array{4e5, 512.0, -5e6}[i % 3], far["vertices"][i], 1e-6);
+    ASSERT_NEAR((near["vertices"][i].get<double>() + std::array{4e5, 512.0, -5e6}[i % 3]),
+                far["vertices"][i].get<double>(), 1e-6);
     ASSERT_EQ(zero["vertices"][i].get<double>() + report["offset"][i % 3].get<double>(), far["vertices"][i]);
   }
 }

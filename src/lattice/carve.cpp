@@ -15,16 +15,19 @@ namespace {
 
 constexpr double kSliver = 0.25;  ///< Of a tet.
 constexpr double kCrumb = 3;      ///< Voxels.
-/// Of the fullest tet around: what holds so much stays, since no tet there can hold more. Without it a plate, which has
-/// no hole to lose, is carved from its rim into strings.
+/// Of the fullest tet around, where none is dense: what holds so much stays, since no tet there can hold more.
+/// Elsewhere `dense` itself is taken of the fullest. Without it a plate, which has no hole to lose, is carved from its
+/// rim into strings.
 constexpr double kOfFullest = 0.5;
 
 class Carver {
  public:
-  /// Tets that hold at least `limit` stay, and those that hold a volume of `crumb` are not alone by an accident.
-  Carver(TetComplex& complex, double limit, Reach reach, double crumb)
+  /// Tets that hold at least `limit`, and that share of the fullest around, stay; those that hold a volume of `crumb`
+  /// are not alone by an accident.
+  Carver(TetComplex& complex, double limit, double of_fullest, Reach reach, double crumb)
       : complex_(complex),
         limit_(limit),
+        of_fullest_(of_fullest),
         crumb_(crumb),
         reach_(std::move(reach)),
         open_faces_(complex.vertex_count(), 0),
@@ -68,11 +71,11 @@ class Carver {
   bool is_full(std::uint32_t t) const {
     double most = 0;
     for (const std::uint32_t v : complex_.corners(t)) most = std::max(most, static_cast<double>(fullest_[v]));
-    return complex_.density(t) >= std::min(limit_, kOfFullest * most);
+    return complex_.density(t) >= (most < limit_ ? of_fullest_ * most : limit_);
   }
 
   void enqueue(std::uint32_t t) {
-    if (!complex_.is_kept(t) || complex_.is_held(t) || is_queued_[t] || is_full(t)) return;
+    if (!complex_.is_kept(t) || complex_.is_held(t) || is_queued_[t] || (is_full(t) && !is_alone(t))) return;
     is_queued_[t] = 1;
     queue_.push({complex_.density(t), t});
   }
@@ -107,12 +110,14 @@ class Carver {
     }
   }
 
-  /// A tet that stands alone for a voxel or two.
-  bool is_crumb(std::uint32_t t) const {
+  bool is_alone(std::uint32_t t) const {
     for (std::size_t i = 0; i < 4; ++i)
       if (complex_.is_kept(complex_.neighbour(t, i))) return false;
-    return complex_.density(t) * complex_.volume(t) < crumb_;
+    return true;
   }
+
+  /// A tet that stands alone for a voxel or two.
+  bool is_crumb(std::uint32_t t) const { return is_alone(t) && complex_.density(t) * complex_.volume(t) < crumb_; }
 
   /// Whether what the tet holds, and what was left to it, stays near the mesh without it.
   bool leaves_cover(std::uint32_t t) const {
@@ -134,7 +139,7 @@ class Carver {
   using Entry = std::pair<float, std::uint32_t>;
 
   TetComplex& complex_;
-  double limit_;
+  double limit_, of_fullest_;
   double crumb_;  ///< Volume.
   Reach reach_;
   std::vector<float> fullest_;
@@ -157,14 +162,14 @@ double crumb_in(const TetComplex& complex, const BitGrid& body) {
 void trim_slivers(Candidates& candidates, double dense, const BitGrid& body, StageWatch& watch) {
   const double limit = std::min(kSliver, dense);
   TetComplex complex(candidates);
-  Carver(complex, limit, find_reach(complex, {limit, dense}, body, watch), 0).run(watch);
+  Carver(complex, limit, 1, find_reach(complex, {limit, dense}, body, watch), 0).run(watch);
 }
 
 std::size_t carve(Candidates& candidates, double dense, const BitGrid& body, TopologyReport& report,
                   StageWatch& watch) {
   TetComplex complex(candidates);
   mend_touching(complex, Ways::Covering, report, watch);
-  Carver(complex, dense, find_reach(complex, {dense, 0}, body, watch), crumb_in(complex, body)).run(watch);
+  Carver(complex, dense, kOfFullest, find_reach(complex, {dense, 0}, body, watch), crumb_in(complex, body)).run(watch);
   std::size_t left = 0;
   for (std::uint32_t t = 0; t < complex.tet_count(); ++t) {
     if (!complex.is_kept(t)) continue;

@@ -200,7 +200,7 @@ void Filler::check_cell(double cell_size) const {
           "at least " + std::to_string(finest_cell_size(grid_)) +
               ", or single precision cannot hold the vertices so far from the origin");
   constexpr double kOfBox = 1e6;  // Beyond, vertices would leave what single precision can hold.
-  require(cell_size <= kOfBox * longest_edge(), "cell_size", cell_size,
+  require(cell_size <= kOfBox * longest_edge(), options_.edge ? "edge" : "cell_size", options_.edge.value_or(cell_size),
           "at most a million times the box's longest edge");
   const Box3 box = grid_box(grid_);
   const Vec3d e = (box.hi - box.lo) * (1 / cell_size);

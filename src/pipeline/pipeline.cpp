@@ -18,7 +18,6 @@ namespace tetsoup {
 namespace {
 
 constexpr std::size_t kDefaultTets = 2000;  ///< As the lattice's own.
-constexpr double kVoxelsToThickness = 2.5;  ///< Of sheets with a thickness.
 constexpr double kMostVoxels = 400;         ///< That a body may ask for along its longest side.
 constexpr std::size_t kFewestTets = 5;      ///< Of a lattice: a cube. Bodies that may have fewer are one tet.
 
@@ -29,6 +28,13 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// Three voxels across a sheet, or five where that would be coarse: odd numbers, which a sheet between voxels' centres
+/// and one on them meet best, and no more than the grid's padding holds.
+double voxel_for_thickness(double thickness, double wanted, const BodySize& size) {
+  const double third = thickness / 3;
+  return std::max(third > wanted ? thickness / 5 : third, size.longest / kMostVoxels);
+}
 
 /// One stage's progress out of that of many steps, each of which may tell of stages of its own.
 class Steps {
@@ -185,8 +191,7 @@ void Pipeline::choose_grids(const Progress& progress) {
     if (!fixed && body.size.longest > 0) body.distance.voxel_size = wanted_voxel_size(body.size, body.tets, count == 1);
     if (!fixed && options_.pseudo_volume.thickness && body.size.rims)
       body.distance.voxel_size =
-          std::max(std::min(*body.distance.voxel_size, *options_.pseudo_volume.thickness / kVoxelsToThickness),
-                   body.size.longest / kMostVoxels);
+          voxel_for_thickness(*options_.pseudo_volume.thickness, *body.distance.voxel_size, body.size);
     if (options_.distance.voxels && count > 1) {
       body.distance.voxels.reset();
       body.distance.voxel_size = make_grid(soup_, options_.distance).voxel_size;

@@ -166,21 +166,55 @@ double covered_share(const TriangleSoup& soup, const BitGrid& inside) {
   return covered.share();
 }
 
-/// The triangles of open parts of which less than half has an inside voxel beside it: they enclose nothing.
+/// Inside voxels with inside voxels beside all their faces.
+BitGrid core_of(const BitGrid& inside) {
+  BitGrid core = inside;
+  const BitRows rows(inside);
+  for (int z = 0; z < inside.frame.size[2]; ++z) {
+    for (int y = 0; y < inside.frame.size[1]; ++y) {
+      const std::uint64_t* here = rows.at(y, z);
+      for (std::size_t w = 0; w < inside.words_per_row; ++w) {
+        std::uint64_t& word = core.words[core.row(y, z) + w];
+        word &= shifted_up(here, w) & shifted_down(here, w, inside.words_per_row);
+        for (const std::uint64_t* beside : {rows.at(y - 1, z), rows.at(y + 1, z), rows.at(y, z - 1), rows.at(y, z + 1)})
+          word &= beside == nullptr ? 0 : beside[w];
+      }
+    }
+  }
+  return core;
+}
+
+/// Of every part, how long its rims are.
+std::vector<double> rim_lengths(const CleanSoup& soup) {
+  std::vector<std::uint32_t> part(soup.soup.vertices.size());
+  for (std::size_t t = 0; t < soup.soup.triangles.size(); ++t)
+    for (const std::uint32_t v : soup.soup.triangles[t]) part[v] = soup.parts.part_of_triangle[t];
+  std::vector<double> lengths(soup.parts.parts.size());
+  for (const auto& [a, b] : soup.parts.odd_edges)
+    lengths[part[a]] += length(to_double(soup.soup.vertices[a]) - to_double(soup.soup.vertices[b]));
+  return lengths;
+}
+
+/// The triangles of sheets: open parts whose rims are long beside their area, and of which less than half has a body of
+/// more than two voxels beside it.
 std::vector<std::uint32_t> find_sheets(const CleanSoup& soup, PseudoVolume& volume) {
-  std::vector<CoveredArea> covered(soup.parts.parts.size(), CoveredArea(volume.inside));
+  const BitGrid body = dilated(core_of(volume.inside), 1);
+  const std::vector<double> rims = rim_lengths(soup);
+  std::vector<CoveredArea> covered(soup.parts.parts.size(), CoveredArea(body));
   for (std::size_t t = 0; t < soup.soup.triangles.size(); ++t)
     covered[soup.parts.part_of_triangle[t]].add(soup.soup, soup.soup.triangles[t]);
+  const auto is_sheet = [&](std::size_t p) {
+    return !soup.parts.parts[p].sound && covered[p].share() < 0.5 && rims[p] * rims[p] > covered[p].area() / 2;
+  };
   double all = 0, sheets = 0;
   for (std::size_t p = 0; p < covered.size(); ++p) {
     all += covered[p].area();
-    if (!soup.parts.parts[p].sound && covered[p].share() < 0.5) sheets += covered[p].area();
+    if (is_sheet(p)) sheets += covered[p].area();
   }
   volume.report.sheet_share = all > 0 ? sheets / all : 0;
   std::vector<std::uint32_t> triangles;
   for (std::uint32_t t = 0; t < soup.soup.triangles.size(); ++t) {
-    const std::uint32_t p = soup.parts.part_of_triangle[t];
-    if (!soup.parts.parts[p].sound && covered[p].share() < 0.5) triangles.push_back(t);
+    if (is_sheet(soup.parts.part_of_triangle[t])) triangles.push_back(t);
   }
   return triangles;
 }
