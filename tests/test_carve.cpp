@@ -33,7 +33,7 @@ TriangleSoup turned_box(const Vec3d& half) {
 TEST(Carve, a_plate_a_tenth_of_a_tet_thick_is_one_layer_without_a_hole) {
   const Stages s = classify(turned_box({1, 1, 0.015}), 200);
   LatticeOptions options;
-  for (const std::size_t tets : {300, 1000}) {
+  for (const std::size_t tets : {300U, 1000U}) {
     options.tets = tets;
     const LatticeMesh plate = fill(s, options);
     EXPECT_EQ(euler_characteristic(plate.mesh), 1) << tets;

@@ -60,7 +60,8 @@ TEST_F(Models, every_one_gives_a_valid_mesh_with_default_options) {
       EXPECT_LT(boundary_distance(result.mesh, clean.soup, 1).mean,
                 boundary_distance(pipeline.lattice().mesh, clean.soup, 1).mean);
     }
-    EXPECT_GT(raw.boundary_curvature * 1.1, q.boundary_curvature);
+    // A lone sheet's layer is as thin as a tet may be: it gains little from smoothing.
+    EXPECT_GT(raw.boundary_curvature * (pipeline.lattice().report.kept_by_soup ? 1.2 : 1.1), q.boundary_curvature);
     EXPECT_GT(pipeline.pseudo_volume().report.soup_covered, 0.9);
   }
 }

@@ -62,7 +62,7 @@ TetMesh touching_along_an_edge() {
 TEST(Sheets, plates_boxes_and_walls_have_no_place_in_two_tets) {
   const Vec3d sizes[] = {{1, 1, 1}, {1, 0.8, 0.05}, {1, 0.1, 0.06}, {1, 0.9, 0.02}, {1, 0.5, 0.12}};
   for (const Vec3d& size : sizes) {
-    for (const std::size_t tets : {400, 1500}) {
+    for (const std::size_t tets : {400U, 1500U}) {
       SCOPED_TRACE(testing::Message() << size.y << " x " << size.z << ", " << tets);
       MeshOptions options;
       options.lattice.tets = tets;

@@ -10,8 +10,8 @@
 
 namespace tetsoup::elementary {
 
-/// Of angles in radians, to an ulp up to a quarter of a million turns. Larger ones are first reduced by the double next to a turn:
-/// the result is a sine all the same, of an angle that the caller cannot have meant to the last digit.
+/// Of angles in radians, to an ulp up to a quarter of a million turns. Larger ones are first reduced by the double next
+/// to a turn: the result is a sine all the same, of an angle that the caller cannot have meant to the last digit.
 double sin(double x);
 double cos(double x);
 double asin(double x);  ///< NaN outside [-1, 1].

@@ -70,7 +70,10 @@ class Looker {
  public:
   Looker(const TriangleSoup& soup, std::span<const std::uint32_t> parts, std::span<const std::uint8_t> is_closed,
          StageWatch& watch)
-      : soup_(soup), parts_(parts), is_closed_(is_closed), tree_(make_box_hierarchy(soup.triangles, soup.vertices, watch)) {
+      : soup_(soup),
+        parts_(parts),
+        is_closed_(is_closed),
+        tree_(make_box_hierarchy(soup.triangles, soup.vertices, watch)) {
     const Box3 box = box_of(soup.vertices);
     size_ = length(box.hi - box.lo);
     any_closed_ = std::any_of(is_closed.begin(), is_closed.end(), [](std::uint8_t closed) { return closed != 0; });

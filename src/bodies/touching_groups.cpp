@@ -27,7 +27,11 @@ void join_at_vertices(const TriangleSoup& soup, std::span<const std::uint32_t> p
 class Joiner {
  public:
   Joiner(const TriangleSoup& soup, std::span<const std::uint32_t> parts, double near, Unions& sets, StageWatch& watch)
-      : parts_(parts), near_(near), sets_(sets), watch_(watch), tree_(make_box_hierarchy(soup.triangles, soup.vertices, watch)) {
+      : parts_(parts),
+        near_(near),
+        sets_(sets),
+        watch_(watch),
+        tree_(make_box_hierarchy(soup.triangles, soup.vertices, watch)) {
     node_parts_.assign(tree_.nodes.size(), kMixed);
     corners_.reserve(tree_.order.size());
     for (const std::uint32_t t : tree_.order) corners_.push_back(corners_of(soup, t));

@@ -48,7 +48,9 @@ class Search {
   const RestSurface& surface(std::size_t p) const { return world_.surfaces[part(p).surface]; }
   Vec3 place(std::uint32_t slot) const { return to_vec(world_.places[slot]); }
   /// What lay so near at rest is not kept apart, m^2.
-  double squared_neighbourhood(std::size_t p) const { return elementary::square(kNeighbours * rest(p).piece.mean_edge); }
+  double squared_neighbourhood(std::size_t p) const {
+    return elementary::square(kNeighbours * rest(p).piece.mean_edge);
+  }
 
   template <class Body>
   void for_parts(const Body& body) {
