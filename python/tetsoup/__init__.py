@@ -29,6 +29,7 @@ from tetsoup._core import (
     Momentum,
     PseudoVolume,
     PseudoVolumeReport,
+    Fidelity,
     Quality,
     Readiness,
     ReadinessCheck,
