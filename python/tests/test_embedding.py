@@ -245,7 +245,7 @@ def test_arrays_of_no_memory_and_endless_rows_are_refused():
     for dtype in (np.int32, np.uint32):
         endless = np.lib.stride_tricks.as_strided(np.zeros(3, dtype), (2**33, 3), (0, dtype().itemsize))
         with pytest.raises(tetsoup.InvalidInput, match="faces has 8589934592 rows"):
-            tetsoup.mesh(points, endless)
+            tetsoup.clean_soup(points, endless)
 
 
 def test_embedding_reports_progress_and_is_cancelled(torus):
