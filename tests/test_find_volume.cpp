@@ -174,6 +174,24 @@ TEST(SplitBodies, bodies_become_so_many_pieces_with_the_tets_that_were_asked_for
   EXPECT_GT(balls.overlap(mesh), 0.8);
 }
 
+TEST(Pipeline, a_space_that_is_given_has_the_usual_number_of_voxels_and_one_body) {
+  Pipeline pipeline(joined(make_ball(1), make_ball(1, {4, 0, 0})));
+  MeshOptions options;
+  pipeline.run_until(Stage::PseudoVolume, options);
+  EXPECT_EQ(pipeline.body_count(), 2U);
+  options.distance.box = Box3{{-1000, -1000, -1000}, {1000, 1000, 1000}};
+  pipeline.run_until(Stage::PseudoVolume, options);
+  EXPECT_EQ(pipeline.body_count(), 1U);
+  EXPECT_EQ(pipeline.grid().size[0] - 2 * pipeline.grid().pad, 128);
+}
+
+TEST(Pipeline, a_lone_point_bears_a_thickness) {
+  const TriangleSoup point{{{1, 2, 3}}, {{0, 0, 0}}};
+  MeshOptions options;
+  options.pseudo_volume.thickness = 0.1;
+  EXPECT_FALSE(mesh_soup(point, options).tets.empty());
+}
+
 TEST(ShareTets, gives_all_tets_away_with_a_floor_for_the_small) {
   std::vector<BodySize> sizes(4);
   for (std::size_t i = 0; i < sizes.size(); ++i) {

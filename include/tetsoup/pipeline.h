@@ -88,7 +88,6 @@ class Pipeline {
     CleanSoup own_soup;
     DistanceOptions distance;  ///< The size of its voxels, as chosen.
     GridFrame grid;
-    std::size_t tets = 0;  ///< Its share of the budget.
     BodySize size;
     std::optional<PseudoVolume> volume;
     std::optional<LatticeMesh> lattice;

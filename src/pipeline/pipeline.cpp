@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/elementary.h"
 #include "base/mesh_voxels.h"
 #include "base/parallel.h"
 #include "base/require.h"
@@ -119,7 +120,8 @@ const SmoothResult& Pipeline::run(const MeshOptions& options, const Progress& pr
 /// What a changed option invalidates goes first, so that a cancelled run leaves no result that does not match.
 void Pipeline::forget_changed(const MeshOptions& options) {
   const auto shares_budget = [](const MeshOptions& o) { return o.lattice.tets.value_or(0); };
-  if (options.join != options_.join) split_.reset();
+  if (options.join != options_.join || options.distance.box.has_value() != options_.distance.box.has_value())
+    split_.reset();
   if (!split_ || !(options.distance == options_.distance) ||
       options.pseudo_volume.thickness != options_.pseudo_volume.thickness) {
     gridded_ = false;
@@ -178,28 +180,30 @@ void Pipeline::choose_grids(const Progress& progress) {
   if (!split_) split(progress);
   const std::size_t count = split_->triangles.size();
   whole_ = count == 1 && split_->specks.empty();
-  const bool fixed = options_.distance.voxels || options_.distance.voxel_size;
+  const DistanceOptions& asked = options_.distance;
+  const bool fixed = asked.voxels || asked.voxel_size || asked.box;
   const std::vector<std::size_t> shares = share_tets(sizes_, options_.lattice.tets.value_or(kDefaultTets));
   bodies_ = std::vector<Body>(count);
   for (std::size_t b = 0; b < count; ++b) {
     Body& body = bodies_[b];
     body.size = sizes_[b];
-    body.tets = shares[b];
     if (!whole_) body.own_soup = subset_of(soup_, split_->triangles[b]);
     (whole_ ? soup_ : body.own_soup).parts.near = split_->near[b];
-    body.distance = options_.distance;
-    if (!fixed && body.size.longest > 0) body.distance.voxel_size = wanted_voxel_size(body.size, body.tets, count == 1);
-    if (!fixed && options_.pseudo_volume.thickness && body.size.rims)
+    body.distance = asked;
+    if (!fixed && body.size.longest > 0) {
+      const double wanted = wanted_voxel_size(body.size, shares[b], count == 1);
+      const std::optional<double>& thickness = options_.pseudo_volume.thickness;
       body.distance.voxel_size =
-          voxel_for_thickness(*options_.pseudo_volume.thickness, *body.distance.voxel_size, body.size);
-    if (options_.distance.voxels && count > 1) {
+          thickness && body.size.rims ? voxel_for_thickness(*thickness, wanted, body.size) : wanted;
+    }
+    if (asked.voxels && count > 1) {
       body.distance.voxels.reset();
-      body.distance.voxel_size = make_grid(soup_, options_.distance).voxel_size;
+      body.distance.voxel_size = make_grid(soup_, asked).voxel_size;
     }
     check_memory(soup_of(body), options_, body.distance);
     body.grid = make_grid(soup_of(body), body.distance);
   }
-  grid_ = count == 1 ? bodies_[0].grid : make_grid(soup_, options_.distance);
+  grid_ = count == 1 ? bodies_[0].grid : make_grid(soup_, asked);
 }
 
 void Pipeline::find_volumes(const Progress& progress) {
@@ -338,7 +342,7 @@ void Pipeline::note_thin_walls(std::vector<std::string>& notes) const {
 }
 
 Vec3d Pipeline::place_of(std::uint32_t triangle) const {
-  return to_double(soup_.soup.vertices[soup_.soup.triangles[triangle][0]]);
+  return soup_.soup.origin + to_double(soup_.soup.vertices[soup_.soup.triangles[triangle][0]]);
 }
 
 void Pipeline::measure_distance(const Progress& progress) const {
@@ -371,7 +375,7 @@ double Pipeline::overlap(const TetMesh& mesh) const {
     TetMesh own;
     if (body.lattice) own = take_mesh(mesh, body.lattice->mesh, place);
     const MeshVoxels voxels = count_mesh_voxels(own, body.volume->inside, watch);
-    const double voxel = body.grid.voxel_size * body.grid.voxel_size * body.grid.voxel_size;
+    const double voxel = elementary::cube(body.grid.voxel_size);
     shared += voxel * static_cast<double>(voxels.in_both);
     either += voxel * static_cast<double>(voxels.in_mesh + body.volume->report.inside_voxels - voxels.in_both);
   }

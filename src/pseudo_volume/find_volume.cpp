@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/bits.h"
+#include "base/elementary.h"
 #include "base/unions.h"
 #include "base/vec.h"
 #include "pseudo_volume/cavities.h"
@@ -312,7 +313,7 @@ PseudoVolume find_volume(const CleanSoup& soup, const GridFrame& frame, const Ps
   report.exact_share =
       static_cast<double>(split.sound.size()) / static_cast<double>(split.sound.size() + split.unsound.size());
   report.inside_voxels = count_voxels(volume.inside);
-  report.volume = static_cast<double>(report.inside_voxels) * frame.voxel_size * frame.voxel_size * frame.voxel_size;
+  report.volume = static_cast<double>(report.inside_voxels) * elementary::cube(frame.voxel_size);
   return volume;
 }
 
