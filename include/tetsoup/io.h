@@ -63,6 +63,18 @@ RenderMesh parse_render_mesh(std::span<const std::byte> bytes, SoupFormat format
 /// The same with the format told as read_soup() tells it, the extension being that of the name.
 RenderMesh parse_render_mesh(std::span<const std::byte> bytes, std::string_view name);
 
+/// A soup or a mesh with its origin taken into the coordinates, as nearly as floats can hold them: for interfaces that
+/// know no origin.
+template <class Mesh>
+Mesh at_its_place(Mesh mesh) {
+  for (Vec3& v : mesh.vertices) {
+    const Vec3d p = placed(v, mesh.origin);
+    v = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  }
+  mesh.origin = {};
+  return mesh;
+}
+
 enum class SurfaceFormat { Obj, StlBinary, Ply };
 
 /// Writes triangles by extension: .obj, .stl (binary), .ply (binary little endian). Vertices no triangle uses are left

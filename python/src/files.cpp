@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 
 void bind_files(nb::module_& m) {
   m.def("read_soup", [](const fs::path& path) {
-    TriangleSoup soup = call_unlocked([&] { return read_soup(path); });
+    TriangleSoup soup = call_unlocked([&] { return at_its_place(read_soup(path)); });
     return std::tuple(owned_rows<float, 3>(std::move(soup.vertices)),
                       owned_rows<std::uint32_t, 3>(std::move(soup.triangles)));
   });
-  m.def("read_tets", [](const fs::path& path) { return call_unlocked([&] { return read_tets(path); }); });
+  m.def("read_tets", [](const fs::path& path) { return call_unlocked([&] { return at_its_place(read_tets(path)); }); });
   m.def("is_tet_file", [](const fs::path& path) { return call_unlocked([&] { return is_tet_file(path); }); });
   m.def("tet_formats", [] {
     std::map<std::string, std::string> formats;

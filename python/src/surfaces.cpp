@@ -91,7 +91,8 @@ void bind_render_mesh(nb::module_& m) {
              return moved;
            })
       .def("save", [](const R& self, const fs::path& path) { call_unlocked([&] { write_render_mesh(path, self); }); });
-  m.def("read_render_mesh", [](const fs::path& path) { return call_unlocked([&] { return read_render_mesh(path); }); });
+  m.def("read_render_mesh",
+        [](const fs::path& path) { return call_unlocked([&] { return at_its_place(read_render_mesh(path)); }); });
 }
 
 void bind_embedding(nb::module_& m) {

@@ -28,7 +28,7 @@ tetsoup_status tetsoup_soup_parse(const void* bytes, size_t size, const char* na
   return c::guarded([&] {
     tetsoup_soup*& out = c::given(soup, "soup");
     const auto* const first = c::given_items(static_cast<const std::byte*>(bytes), size, "bytes");
-    RenderMesh render = parse_render_mesh({first, size}, &c::given(name, "name"));
+    RenderMesh render = at_its_place(parse_render_mesh({first, size}, &c::given(name, "name")));
     TriangleSoup triangles = triangles_of(render);
     out = make_handle(std::move(render), std::move(triangles));
   });
