@@ -3,6 +3,7 @@
 #pragma once
 
 #include <new>
+#include <cstring>
 #include <string>
 
 #include "base/require.h"
@@ -42,6 +43,15 @@ tetsoup_status guarded(const Action& action) noexcept {
     set_error("unknown error");
     return TETSOUP_INTERNAL_ERROR;
   }
+}
+
+/// The number that stands in an enumeration, which a caller in C may have set to any.
+template <class Enum>
+int number_of(const Enum& value) {
+  int number = 0;
+  static_assert(sizeof number == sizeof value);
+  std::memcpy(&number, &value, sizeof number);
+  return number;
 }
 
 /// @throws InvalidInput  naming the argument, if it is NULL.

@@ -16,14 +16,15 @@ namespace {
 
 constexpr std::array<const char*, kStageCount> kStageNames{"soup", "distance", "pseudo_volume", "lattice", "smooth"};
 
-Stage stage_of(tetsoup_stage stage) {
-  const int number = stage;
+Stage stage_of(const tetsoup_stage& stage) {
+  const int number = c::number_of(stage);
   require(number >= 0 && number < static_cast<int>(kStageCount), "stage", number, "0 to 4");
   return static_cast<Stage>(number);
 }
 
-const TetMesh& mesh_of(const tetsoup_pipeline& p, tetsoup_mesh mesh) {
-  require(mesh == TETSOUP_MESH_LATTICE || mesh == TETSOUP_MESH_FINAL, "mesh", static_cast<int>(mesh), "0 or 1");
+const TetMesh& mesh_of(const tetsoup_pipeline& p, const tetsoup_mesh& mesh) {
+  const int number = c::number_of(mesh);
+  require(number == TETSOUP_MESH_LATTICE || number == TETSOUP_MESH_FINAL, "mesh", number, "0 or 1");
   p.require_stage(mesh == TETSOUP_MESH_LATTICE ? Stage::Lattice : Stage::Smooth);
   return mesh == TETSOUP_MESH_LATTICE ? p.pipeline.lattice().mesh : p.pipeline.smooth().mesh;
 }
@@ -56,11 +57,13 @@ void fill_layer(const GridFrame& frame, int axis, int layer, std::vector<float>&
       values.push_back(static_cast<float>(at(voxel[0], voxel[1], voxel[2])));
 }
 
-void fill_slice(tetsoup_pipeline& p, tetsoup_field field, int axis, int layer, std::size_t& width) {
+void fill_slice(tetsoup_pipeline& p, const tetsoup_field& field, int axis, int layer, std::size_t& width) {
   const GridFrame& frame = p.pipeline.grid();
   require(axis >= 0 && axis < 3, "axis", axis, "0, 1 or 2");
   const int layers = frame.size[static_cast<std::size_t>(axis)];
   require(layer >= 0 && layer < layers, "layer", layer, "at least 0 and below the grid's size along the axis");
+  const int number = c::number_of(field);
+  require(number >= 0 && number <= TETSOUP_FIELD_INSIDE, "field", number, "0, 1 or 2");
   switch (field) {
     case TETSOUP_FIELD_DISTANCE:
       return fill_layer(frame, axis, layer, p.slice, width,
@@ -74,7 +77,6 @@ void fill_slice(tetsoup_pipeline& p, tetsoup_field field, int axis, int layer, s
       return fill_layer(frame, axis, layer, p.slice, width,
                         [&](int x, int y, int z) { return p.pipeline.pseudo_volume().inside.test(x, y, z) ? 1 : 0; });
   }
-  require(false, "field", static_cast<int>(field), "0, 1 or 2");
 }
 
 template <class... Parts>
@@ -167,8 +169,8 @@ tetsoup_status tetsoup_pipeline_tet_quality(tetsoup_pipeline* pipeline, tetsoup_
   return c::guarded([&] {
     tetsoup_pipeline& p = c::given(pipeline, "pipeline");
     tetsoup_floats& out = c::given(values, "values");
-    require(measure == TETSOUP_MEAN_RATIO || measure == TETSOUP_MIN_DIHEDRAL, "measure", static_cast<int>(measure),
-            "0 or 1");
+    const int number = c::number_of(measure);
+    require(number == TETSOUP_MEAN_RATIO || number == TETSOUP_MIN_DIHEDRAL, "measure", number, "0 or 1");
     constexpr auto kDegrees = static_cast<float>(180 / std::numbers::pi);
     p.qualities.clear();
     for (const TetQuality& tet : measure_tets(mesh_of(p, mesh)))
