@@ -62,8 +62,13 @@ test('a real model is dropped, meshed, and said in plain words', async (t) => {
 
 test('every slider changes the mesh', async () => {
   await studio.with('#sample=robot&voxels=64&snap=off', async (page) => {
-    let { volume } = await settled(page);
+    let { volume, job } = await settled(page);
     await page.click('[data-control=k-auto]');
+    // The intact robot is sound: its mesh stays what it was, so the slider's mesh must not be taken for this one.
+    await page.waitForFunction((old) => {
+      const { dataset } = document.getElementById('app');
+      return dataset.state === 'done' && dataset.job !== old;
+    }, job);
     await page.click('#place > summary');
     const travels = [['damage', 0.5], ['tets', 0.7], ['rho', 0.1], ['voxels', 0.45], ['k', 0.8], ['strength', 0.2], ['passes', 0.9],
       ['translate-x', 0.8], ['translate-y', 0.3], ['translate-z', 0.7], ['rotate-x', 0.6], ['rotate-y', 0.55], ['rotate-z', 0.4]];
