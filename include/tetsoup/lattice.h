@@ -81,7 +81,9 @@ struct TopologyReport {
   std::size_t boundary_only_edges = 0;  ///< Interior edges between boundary vertices that were split.
 };
 
-/// At most one of `tets`, `vertices`, `edge`, `cells` and `cell_size`; none: 2,000 tets.
+inline constexpr std::size_t kDefaultTets = 2000;  ///< Wanted if nothing is said.
+
+/// At most one of `tets`, `vertices`, `edge`, `cells` and `cell_size`; none: kDefaultTets.
 struct LatticeOptions {
   std::optional<std::size_t> tets;      ///< Tets wanted, 1..2^27: hit within 5 % from 200 on, 10 % below.
   std::optional<std::size_t> vertices;  ///< Vertices wanted, likewise.

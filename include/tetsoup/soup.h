@@ -64,12 +64,6 @@ struct SoupParts {
   /// (split_bodies()).
   std::vector<std::uint32_t> around;
   double near = 0;  ///< Parts closer than this hang together.
-
-  bool all_sound() const {
-    for (const SoupPart& part : parts)
-      if (!part.sound) return false;
-    return true;
-  }
 };
 
 /// The soup in its canonical form: distinct positions in lexicographic order, each triangle's indices ascending,

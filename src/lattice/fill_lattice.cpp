@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kMaxCells = 1024;
 constexpr std::size_t kMostWanted = std::size_t{1} << 27;
-constexpr std::size_t kDefaultTets = 2000;
 constexpr double kVolumeMiss = 0.03;  ///< Relative; a lattice that keeps the volume this well is left as it is.
 
 void check_size_options(const LatticeOptions& o) {

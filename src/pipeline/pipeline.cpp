@@ -18,9 +18,8 @@
 namespace tetsoup {
 namespace {
 
-constexpr std::size_t kDefaultTets = 2000;  ///< As the lattice's own.
-constexpr double kMostVoxels = 400;         ///< That a body may ask for along its longest side.
-constexpr std::size_t kFewestTets = 5;      ///< Of a lattice: a cube. Bodies that may have fewer are one tet.
+constexpr double kMostVoxels = 400;     ///< That a body may ask for along its longest side.
+constexpr std::size_t kFewestTets = 5;  ///< Of a lattice: a cube. Bodies that may have fewer are one tet.
 
 class Stopwatch {
  public:
