@@ -1,7 +1,9 @@
 // Scenes from their words to what plays.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -235,6 +237,47 @@ TEST(Scene, pins_hold_and_move_and_let_go) {
   for (int i = 0; i < 15; ++i) advance_frame(loaded);
   EXPECT_TRUE(loaded.moved.at(0).released);
   EXPECT_LT(reach() - start, 0.2);
+}
+
+TEST(Scene, many_pins_are_read_and_moved_in_proportion) {
+  const auto cost = [](std::size_t count) {
+    const std::string pin = R"({"axis": "z", "below": 9, "velocity": [0.1, 0, 0]})";
+    std::string pins = pin;
+    for (std::size_t i = 1; i < count; ++i) pins += "," + pin;
+    const std::string text = box_with(R"(, "surface": false, "pins": [)" + pins + "]");
+    std::array<double, 2> least{1e9, 1e9};
+    for (int i = 0; i < 3; ++i) {
+      const std::clock_t begin = std::clock();
+      LoadedScene loaded = load_scene(parse(text));
+      const std::clock_t middle = std::clock();
+      for (int frame = 0; frame < 2; ++frame) advance_frame(loaded);
+      least[0] = std::min(least[0], static_cast<double>(middle - begin));
+      least[1] = std::min(least[1], static_cast<double>(std::clock() - middle));
+    }
+    return least;
+  };
+  const auto few = cost(1500), many = cost(24000);
+  EXPECT_LT(many[0], 48 * few[0]);  // each asking all others: 256
+  EXPECT_LT(many[1], 48 * few[1]);
+}
+
+TEST(Scene, pins_of_one_body_are_moved_one_after_the_other) {
+  LoadedScene loaded = load(box_with(
+      R"(, "instances": [{}, {"translate": [2, 0, 0]}], "pins": [{"axis": "x", "below": -0.05, "velocity": [-1, 0, 0]},)"
+      R"( {"axis": "x", "above": 0.05, "velocity": [1, 0, 0], "release": 0.01}, {"axis": "x", "above": 0.09, "velocity": [0, 1, 0]}])"));
+  const std::vector<Vec3> first(loaded.simulation.positions(0).begin(), loaded.simulation.positions(0).end());
+  advance_frame(loaded);
+  for (std::size_t body = 0; body < 2; ++body)
+    for (std::size_t v = 0; v < first.size(); ++v) {
+      const Vec3d moved = to_double(loaded.simulation.positions(body)[v]) - to_double(first[v]) -
+                          Vec3d{2 * static_cast<double>(body), 0, 0};
+      if (first[v].x < -0.05F) {
+        EXPECT_NEAR(moved.x, -1.0 / 60, 1e-6);
+      }
+      if (first[v].x > 0.09F) {
+        EXPECT_NEAR(moved.y, 1.0 / 60, 1e-6);
+      }
+    }
 }
 
 TEST(Scene, a_pin_where_no_vertex_lies_is_an_error) {

@@ -24,14 +24,27 @@ Vec3d rotated(const Vec3d& rotation, const Vec3d& p) {
          axis * (dot(axis, p) * (1 - elementary::cos(angle)));
 }
 
-void move_pin(Simulation& simulation, const MovedPin& pin, double time) {
+void move_pin(const MovedPin& pin, double time, std::span<Vec3> positions) {
   const double t = std::min(time, pin.until.value_or(time));
-  const std::span<const Vec3> now = simulation.positions(pin.body);
-  std::vector<Vec3> positions(now.begin(), now.end());
   for (std::size_t i = 0; i < pin.vertices.size(); ++i)
     positions[pin.vertices[i]] =
         to_float(pin.centre + pin.velocity * t + rotated(pin.spin * t, to_double(pin.starts[i]) - pin.centre));
-  simulation.set_positions(pin.body, positions);
+}
+
+/// Each body is written once, however many pins it has: they stand body after body.
+void move_pins(LoadedScene& loaded, double time) {
+  const std::vector<MovedPin>& all = loaded.moved;
+  std::vector<Vec3> positions;
+  for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    positions.clear();
+    for (; end < all.size() && all[end].body == all[begin].body; ++end) {
+      if (!is_driven(all[end]) || all[end].released) continue;
+      const std::span<const Vec3> now = loaded.simulation.positions(all[end].body);
+      if (positions.empty()) positions.assign(now.begin(), now.end());
+      move_pin(all[end], time, positions);
+    }
+    if (!positions.empty()) loaded.simulation.set_positions(all[begin].body, positions);
+  }
 }
 
 /// Pins are free, or held, as they are while a frame is simulated; -1: as in the beginning.
@@ -66,8 +79,7 @@ void advance_frame(LoadedScene& loaded) {
   const int steps = steps_of_frame(loaded);
   for (int i = 0; i < steps; ++i) {
     const double time = (static_cast<double>(loaded.frame) + (i + 1.0) / steps) / scene.fps;
-    for (const MovedPin& pin : loaded.moved)
-      if (is_driven(pin) && !pin.released) move_pin(loaded.simulation, pin, time);
+    move_pins(loaded, time);
     loaded.simulation.step(1 / scene.fps / steps);
   }
   ++loaded.frame;

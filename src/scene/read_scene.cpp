@@ -184,20 +184,51 @@ std::string place_in(std::string_view text, std::size_t byte) {
   return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - start + 1);
 }
 
-/// The library would take the last of keys that are given twice.
-Json parse_json(std::string_view text, const char* name) {
-  constexpr int kDeepest = 16;  // scenes are five deep
-  std::vector<std::set<std::string>> open;
-  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth > kDeepest) throw Problem(name, "brackets are nested too deeply");
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
-    if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event == Json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second)
-      throw Problem(as_written(value), "this key is given twice in one object");
+/// Refuses keys that are given twice, of which the library would take the last. A pass of its own: parsing with a
+/// callback asks all elements of an array again at the end of each.
+class KeyWatch : public nlohmann::json_sax<Json> {
+ public:
+  explicit KeyWatch(const char* name) : name_(name) {}
+
+  bool start_object(std::size_t) override { return enter(); }
+  bool start_array(std::size_t) override { return enter(); }
+  bool end_object() override { return leave(); }
+  bool end_array() override { return leave(); }
+  bool key(std::string& key) override {
+    if (open_.back().insert(key).second) return true;
+    throw Problem(as_written(key), "this key is given twice in one object");
+  }
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(std::int64_t) override { return true; }
+  bool number_unsigned(std::uint64_t) override { return true; }
+  bool number_float(double, const std::string&) override { return true; }
+  bool string(std::string&) override { return true; }
+  bool binary(Json::binary_t&) override { return true; }
+  /// Who parses the text in earnest says it.
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
+
+ private:
+  bool enter() {
+    constexpr std::size_t kDeepest = 16;  // scenes are five deep
+    if (open_.size() > kDeepest) throw Problem(name_, "brackets are nested too deeply");
+    open_.emplace_back();
     return true;
-  };
+  }
+  bool leave() {
+    open_.pop_back();
+    return true;
+  }
+
+  const char* name_;
+  std::vector<std::set<std::string>> open_;
+};
+
+Json parse_json(std::string_view text, const char* name) {
+  KeyWatch watch(name);
+  Json::sax_parse(text.begin(), text.end(), &watch);
   try {
-    return Json::parse(text.begin(), text.end(), watch);
+    return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {
     const std::string what = error.what();
     const std::size_t reason = what.find("; last read");

@@ -86,6 +86,7 @@ void add_part(World& world, std::size_t which, std::size_t surface, const Pose& 
     world.bodies.back().slots[rest.piece.vertices[v]] = static_cast<std::uint32_t>(part.begin + v);
   }
   world.parts.push_back(std::move(part));
+  ++world.rests[which].part_count;
 }
 
 void add_body(World& world, const TetMesh& mesh, const Pose& pose, double scale, const Make& m, std::size_t first_rest,
@@ -153,6 +154,21 @@ class Addition {
   bool kept_ = false;
 };
 
+/// Copies what a part shares with others, for good: it is not copied again however often vertices are pinned and let
+/// go.
+void give_own_rest(World& world, Part& part) {
+  world.nets.push_back(world.nets[part.rest]);
+  try {
+    world.rests.push_back(world.rests[part.rest]);
+  } catch (...) {
+    world.nets.pop_back();
+    throw;
+  }
+  --world.rests[part.rest].part_count;
+  part.rest = world.rests.size() - 1;
+  world.rests[part.rest].part_count = 1;
+}
+
 }  // namespace
 
 void add_bodies(World& world, const TetMesh& mesh, const SimMaterial& material, std::span<const Pose> poses) {
@@ -185,7 +201,8 @@ void add_bodies(World& world, const TetMesh& mesh, const SimMaterial& material, 
     }
     add_body(world, mesh, poses[i], poses[i].scale * material.elastic.metres_per_unit, *m, first_rest, first_surface);
   }
-  world.start = world.places;
+  world.start.insert(world.start.end(), world.places.begin() + static_cast<std::ptrdiff_t>(world.start.size()),
+                     world.places.end());
   addition.keep();
 }
 
@@ -194,12 +211,7 @@ void hold_vertex(World& world, std::uint32_t slot, Hold hold) {
   const std::size_t v = slot - part.begin;
   const bool held = hold == Hold::Held;
   if ((world.rests[part.rest].held[v] != 0) == held) return;
-  // A Rest that no other part has may be changed; it is its own once it has a held vertex.
-  if (!world.rests[part.rest].is_held()) {
-    world.rests.push_back(world.rests[part.rest]);
-    world.nets.push_back(world.nets[part.rest]);
-    part.rest = world.rests.size() - 1;
-  }
+  if (world.rests[part.rest].part_count > 1) give_own_rest(world, part);
   Rest& rest = world.rests[part.rest];
   rest.held[v] = held ? 1 : 0;
   rest.held_count = held ? rest.held_count + 1 : rest.held_count - 1;
@@ -209,17 +221,19 @@ void hold_vertex(World& world, std::uint32_t slot, Hold hold) {
   if (held) m = {0, 0, 0, m.mass};
 }
 
-void publish(World& world) {
-  for (Body& body : world.bodies) {
-    for (std::size_t v = 0; v < body.slots.size(); ++v) {
-      const std::uint32_t slot = body.slots[v];
-      if (slot == kNoSlot) continue;
-      const kernel::Place& p = world.places[slot];
-      const kernel::Motion& m = world.motions[slot];
-      body.positions[v] = {p.x, p.y, p.z};
-      body.velocities[v] = {m.x, m.y, m.z};
-    }
+void publish(const World& world, Body& body) {
+  for (std::size_t v = 0; v < body.slots.size(); ++v) {
+    const std::uint32_t slot = body.slots[v];
+    if (slot == kNoSlot) continue;
+    const kernel::Place& p = world.places[slot];
+    const kernel::Motion& m = world.motions[slot];
+    body.positions[v] = {p.x, p.y, p.z};
+    body.velocities[v] = {m.x, m.y, m.z};
   }
+}
+
+void publish(World& world) {
+  for (Body& body : world.bodies) publish(world, body);
 }
 
 }  // namespace tetsoup::simulate

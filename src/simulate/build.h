@@ -16,6 +16,7 @@ enum class Hold { Held, Free };
 void hold_vertex(World& world, std::uint32_t slot, Hold hold);
 
 /// Copies places and velocities to where the caller sees them.
+void publish(const World& world, Body& body);
 void publish(World& world);
 
 }  // namespace tetsoup::simulate

@@ -7,6 +7,10 @@
 
 #include "tetsoup/types.h"
 
+namespace tetsoup {
+class StageWatch;
+}
+
 namespace tetsoup::simulate {
 
 struct World;
@@ -50,7 +54,8 @@ enum class Edges { Find, Keep };
 
 /// Finds what touches, or may touch within `horizon` seconds. Edges are found once a step and then kept: they are slow
 /// to find, and vertices tell of most.
-void find_contacts(World& world, double horizon, Edges edges);
+/// @throws Cancelled  as the watch says; the contacts of before are kept for the next search then.
+void find_contacts(World& world, double horizon, Edges edges, StageWatch& watch);
 
 /// Pushes and rubs, after all parts have moved freely for h.
 void solve_contacts(World& world, double h);

@@ -30,16 +30,20 @@ struct Hit {
 
 class Search {
  public:
-  Search(World& world, double horizon)
-      : world_(world), watch_(nobody_, "simulate"), pairs_(find_part_pairs(world, horizon, watch_)) {}
+  Search(World& world, double horizon, StageWatch& watch)
+      : world_(world), watch_(watch), pairs_(find_part_pairs(world, horizon, watch)) {}
 
   void run(Edges edges) {
-    before_ = std::move(world_.contacts.between);
-    world_.contacts.between.clear();
-    world_.contacts.with_obstacles.clear();
-    touch_obstacles();
-    add_contacts(find_hits());
-    if (edges == Edges::Find) cross_edges();
+    before_ = std::exchange(world_.contacts.between, {});
+    try {
+      world_.contacts.with_obstacles.clear();
+      touch_obstacles();
+      add_contacts(find_hits());
+      if (edges == Edges::Find) cross_edges();
+    } catch (...) {  // stopped half way: the next search goes on from what this one found
+      world_.contacts.between = std::move(before_);
+      throw;
+    }
   }
 
  private:
@@ -290,16 +294,15 @@ class Search {
   }
 
   World& world_;
-  const Progress nobody_;
-  StageWatch watch_;
+  StageWatch& watch_;
   PartPairs pairs_;
   std::vector<Contact> before_;
 };
 
 }  // namespace
 
-void find_contacts(World& world, double horizon, Edges edges) {
-  if (world.options.contacts != Contacts::None) Search(world, horizon).run(edges);
+void find_contacts(World& world, double horizon, Edges edges, StageWatch& watch) {
+  if (world.options.contacts != Contacts::None) Search(world, horizon, watch).run(edges);
 }
 
 }  // namespace tetsoup::simulate

@@ -1,13 +1,19 @@
 #include "simulate/part_pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 
+#include "base/box_hierarchy.h"
 #include "base/elementary.h"
 #include "simulate/contact_constants.h"
 
 namespace tetsoup::simulate {
 namespace {
+
+constexpr std::int64_t kGrain = 256;  ///< Parts a task.
 
 /// How the vertices of a part's surface move: with a common velocity, and at most so much faster than it.
 struct Drift {
@@ -66,6 +72,37 @@ bool may_touch_itself(const World& world, const Part& part) {
                      [&](std::uint32_t v) { return squared_length(left(v) - shift) > most; });
 }
 
+/// All that may come within the bounds. A little more, since it is rounded otherwise than Bounds::meets() is.
+BoxHierarchy::Box box_around(const Bounds& b, double ahead) {
+  constexpr double kRounding = 1e-6;
+  const Vec3d lo = to_double(b.lo), hi = to_double(b.hi);
+  const double farthest = std::max({-lo.x, -lo.y, -lo.z, hi.x, hi.y, hi.z, hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+  const double most = ahead + kRounding * (ahead + farthest);
+  return {to_float(lo - Vec3d{most, most, most}), to_float(hi + Vec3d{most, most, most})};
+}
+
+BoxHierarchy tree_over(std::span<const BoxHierarchy::Box> boxes, StageWatch& watch) {
+  if (boxes.empty()) return {};
+  Box3 all{to_double(boxes[0].lo), to_double(boxes[0].hi)};
+  for (const BoxHierarchy::Box& box : boxes) all = {min(all.lo, to_double(box.lo)), max(all.hi, to_double(box.hi))};
+  return make_box_hierarchy(
+      boxes.size(), 1, all, [&](std::size_t i) { return boxes[i]; }, watch);
+}
+
+template <class Visit>
+void visit_meeting(const BoxHierarchy& tree, const BoxHierarchy::Box& box, const Visit& visit) {
+  std::array<std::uint32_t, BoxHierarchy::kMaxDepth + 1> open{};
+  for (std::size_t depth = tree.nodes.empty() ? 0 : 1; depth > 0;) {
+    const std::uint32_t number = open[--depth];
+    const BoxHierarchy::Node& node = tree.nodes[number];
+    if (!Bounds{node.lo, node.hi}.meets({box.lo, box.hi}, 0)) continue;
+    for (std::uint32_t i = 0; i < node.count; ++i) visit(tree.order[node.next + i]);
+    if (node.count > 0) continue;
+    open[depth++] = node.next;
+    open[depth++] = number + 1;
+  }
+}
+
 }  // namespace
 
 PartPairs find_part_pairs(const World& world, double horizon, StageWatch& watch) {
@@ -85,20 +122,27 @@ PartPairs find_part_pairs(const World& world, double horizon, StageWatch& watch)
     pairs.ahead[p] = static_cast<float>(std::min(speed * horizon, most_ahead(p)));
     bent[p] = world.options.contacts == Contacts::All && may_touch_itself(world, part) ? 1 : 0;
   });
-  for (std::uint32_t p = 0; p < count; ++p) {
-    for (std::uint32_t q = p; q < count; ++q) {
-      const bool wanted = world.options.contacts == Contacts::All || world.parts[p].body != world.parts[q].body;
-      if (p == q ? bent[p] == 0 : !wanted) continue;
-      const double closing =
-          length(drifts[p].velocity - drifts[q].velocity) + drifts[p].spread + drifts[q].spread + gained;
-      const auto ahead = static_cast<float>(std::min(closing * horizon, most_ahead(p) + most_ahead(q)));
-      if (!pairs.bounds[p].meets(pairs.bounds[q], ahead)) continue;
-      pairs.partners[p].push_back({q, ahead});
-      if (p != q) pairs.partners[q].push_back({p, ahead});
+  std::vector<BoxHierarchy::Box> widened(count);
+  for (std::size_t p = 0; p < count; ++p) widened[p] = box_around(pairs.bounds[p], most_ahead(p));
+  const BoxHierarchy tree = tree_over(widened, watch);
+  // Of two, what the first in number has counts as the first, so that both find the same.
+  const auto meet = [&](std::uint32_t p, std::uint32_t q) -> std::optional<float> {
+    const bool wanted = world.options.contacts == Contacts::All || world.parts[p].body != world.parts[q].body;
+    if (p == q ? bent[p] == 0 : !wanted) return {};
+    const double closing =
+        length(drifts[p].velocity - drifts[q].velocity) + drifts[p].spread + drifts[q].spread + gained;
+    const auto ahead = static_cast<float>(std::min(closing * horizon, most_ahead(p) + most_ahead(q)));
+    return pairs.bounds[p].meets(pairs.bounds[q], ahead) ? std::optional(ahead) : std::nullopt;
+  };
+  parallel_for(static_cast<std::int64_t>(count), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto p = static_cast<std::uint32_t>(begin); p < static_cast<std::uint32_t>(end); ++p) {
+      std::vector<Partner>& partners = pairs.partners[p];
+      visit_meeting(tree, widened[p], [&](std::uint32_t q) {
+        if (const auto ahead = meet(std::min(p, q), std::max(p, q))) partners.push_back({q, *ahead});
+      });
+      std::sort(partners.begin(), partners.end(), [](const Partner& a, const Partner& b) { return a.part < b.part; });
     }
-  }
-  for (auto& some : pairs.partners)
-    std::sort(some.begin(), some.end(), [](const Partner& a, const Partner& b) { return a.part < b.part; });
+  });
   return pairs;
 }
 

@@ -34,14 +34,15 @@ struct Rest {
   Piece piece;
   SimMaterial material;
   std::vector<double> masses;             ///< A quarter of its tets' for every vertex.
-  std::vector<std::uint8_t> held;         ///< Pinned vertices; a piece with one has a Rest of its own.
+  std::vector<std::uint8_t> held;         ///< Pinned vertices; a part with one has a Rest of its own.
   std::size_t held_count = 0;             ///< Of them.
   std::size_t padded_count = 0;           ///< Vertices in whole blocks, with at least one of no mass.
   std::vector<std::uint32_t> lanes;       ///< Place of each tet in the batches: batch * kTetLanes + lane.
   std::vector<kernel::TetBatch> batches;  ///< Responses and compliances as `prepare` made them.
   /// Ends of runs of batches: one round after the other; runs of a round share no vertex.
   std::vector<std::vector<std::size_t>> rounds;
-  double prepared_for = 0;  ///< Substep, s.
+  double prepared_for = 0;     ///< Substep, s.
+  std::size_t part_count = 0;  ///< That share it.
 
   double shear_modulus() const { return material.elastic.young / (2 * (1 + material.elastic.poisson)); }
   double lame() const {

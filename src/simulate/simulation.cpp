@@ -48,8 +48,9 @@ std::size_t Simulation::add_body(const TetMesh& mesh, const SimMaterial& materia
 
 std::size_t Simulation::add_bodies(const TetMesh& mesh, const SimMaterial& material, std::span<const Pose> poses) {
   const std::size_t first = state_->world.bodies.size();
-  simulate::add_bodies(state_->world, mesh, material, poses);
-  publish(state_->world);
+  World& world = state_->world;
+  simulate::add_bodies(world, mesh, material, poses);
+  for (std::size_t i = first; i < world.bodies.size(); ++i) publish(world, world.bodies[i]);
   return first;
 }
 
@@ -112,15 +113,20 @@ void Simulation::step(double dt, const Progress& progress) {
   prepare_substeps(world, h);
   StageWatch watch(progress, "simulate");
   int done = 0;
-  for (int i = 0; i < substeps && !watch.stopped(); ++i) {
-    if (i % interval == 0)
-      find_contacts(world, h * std::min(interval, substeps - i), i == 0 ? Edges::Find : Edges::Keep);
-    move_freely(world, h);
-    solve_springs(world, h);
-    solve_contacts(world, h);
-    solve_attachments(world, h);
-    done = i + 1;
-    watch.tick(static_cast<double>(done) / substeps);
+  try {
+    watch.enter_part(0, 0);
+    for (int i = 0; i < substeps; ++i) {
+      if (i % interval == 0)
+        find_contacts(world, h * std::min(interval, substeps - i), i == 0 ? Edges::Find : Edges::Keep, watch);
+      move_freely(world, h);
+      solve_springs(world, h);
+      solve_contacts(world, h);
+      solve_attachments(world, h);
+      done = i + 1;
+      const double share = static_cast<double>(done) / substeps;
+      watch.enter_part(share, share);
+    }
+  } catch (const Cancelled&) {  // thrown again below: whole substeps are kept
   }
   world.time += done == substeps ? dt : done * h;
   world.report.substeps = done;
@@ -154,7 +160,7 @@ void Simulation::set_positions(std::size_t body, std::span<const Vec3> positions
     kernel::Place& place = world.places[slots[v]];
     place = {positions[v].x, positions[v].y, positions[v].z, place.inverse_mass};
   }
-  publish(world);
+  publish(world, world.bodies[body]);
 }
 
 void Simulation::set_velocities(std::size_t body, std::span<const Vec3> velocities) {
@@ -167,7 +173,7 @@ void Simulation::set_velocities(std::size_t body, std::span<const Vec3> velociti
     kernel::Motion& motion = world.motions[slots[v]];
     motion = {velocities[v].x, velocities[v].y, velocities[v].z, motion.mass};
   }
-  publish(world);
+  publish(world, world.bodies[body]);
 }
 
 const SimulationReport& Simulation::report() const {
