@@ -221,8 +221,35 @@ TEST(CSimulation, what_is_out_of_range_is_named) {
   EXPECT_EQ(tetsoup_simulation_add_spring(simulation, 0, 0, nullptr, 1, &spring), TETSOUP_INVALID_INPUT);
   EXPECT_EQ(tetsoup_simulation_step(simulation, 2), TETSOUP_INVALID_INPUT);
   EXPECT_EQ(tetsoup_scene_advance(simulation), TETSOUP_INVALID_INPUT);
+  EXPECT_EQ(tetsoup_scene_seek(simulation, 3), TETSOUP_INVALID_INPUT);
   EXPECT_TRUE(error_tells("not of a scene"));
   tetsoup_simulation_destroy(simulation);
+}
+
+TEST(CSimulation, a_scene_loaded_anew_goes_on_at_the_time_of_the_old_one) {
+  const char* const text =
+      R"({"gravity": [0, 0, 0], "fps": 60, "bodies": [{"box": [0.2, 0.2, 0.2], "mesh": {"cells": 2, "voxels": 16},)"
+      R"( "surface": false, "pins": [{"axis": "x", "below": 9, "velocity": [6, 0, 0], "release": 0.4}]}]})";
+  const auto load = [&] {
+    tetsoup_simulation* scene = nullptr;
+    EXPECT_EQ(tetsoup_scene_load(text, nullptr, nullptr, nullptr, &scene), TETSOUP_OK);
+    return scene;
+  };
+  const auto x_of = [](tetsoup_simulation* scene) {
+    tetsoup_floats at{};
+    EXPECT_EQ(tetsoup_simulation_positions(scene, 0, &at), TETSOUP_OK);
+    return at.data[0];
+  };
+  tetsoup_simulation *played = load(), *anew = load();
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(tetsoup_scene_advance(played), TETSOUP_OK);
+  EXPECT_EQ(tetsoup_scene_seek(anew, 9), TETSOUP_OK);
+  EXPECT_EQ(tetsoup_scene_advance(anew), TETSOUP_OK);
+  EXPECT_FLOAT_EQ(x_of(anew), x_of(played));
+  EXPECT_EQ(tetsoup_scene_seek(anew, 30), TETSOUP_OK);  // let go: nothing moves it any more
+  EXPECT_EQ(tetsoup_scene_advance(anew), TETSOUP_OK);
+  EXPECT_NEAR(x_of(anew), x_of(played), 1e-3);
+  tetsoup_simulation_destroy(anew);
+  tetsoup_simulation_destroy(played);
 }
 
 TEST(CSimulation, a_scene_that_is_wrong_or_cancelled_gives_no_handle) {

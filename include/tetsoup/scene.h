@@ -205,6 +205,10 @@ int steps_of_frame(const LoadedScene& loaded);
 /// Simulates one frame, 1 / fps seconds.
 void advance_frame(LoadedScene& loaded);
 
+/// Time stands after so many frames then: pins that are let go by then are free, others held, and those that are moved
+/// go on from there with the next frame; what moves freely stays where it is.
+void seek_frame(LoadedScene& loaded, std::size_t frame);
+
 /// Moves all surfaces with their bodies.
 void deform_surfaces(LoadedScene& loaded);
 

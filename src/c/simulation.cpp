@@ -220,6 +220,10 @@ tetsoup_status tetsoup_scene_advance(tetsoup_simulation* simulation) {
   return c::guarded([&] { advance_frame(scene_of(c::given(simulation, "simulation"))); });
 }
 
+tetsoup_status tetsoup_scene_seek(tetsoup_simulation* simulation, size_t frame) {
+  return c::guarded([&] { seek_frame(scene_of(c::given(simulation, "simulation")), frame); });
+}
+
 tetsoup_status tetsoup_scene_obstacle_count(const tetsoup_simulation* simulation, size_t* count) {
   return c::guarded([&] {
     const tetsoup_simulation& s = c::given(simulation, "simulation");

@@ -85,6 +85,11 @@ void advance_frame(LoadedScene& loaded) {
   ++loaded.frame;
 }
 
+void seek_frame(LoadedScene& loaded, std::size_t frame) {
+  release_pins(loaded, static_cast<double>(frame) - 1);
+  loaded.frame = frame;
+}
+
 void deform_surfaces(LoadedScene& loaded) {
   for (std::size_t body = 0; body < loaded.bodies.size(); ++body) {
     const SceneAsset& asset = loaded.assets[loaded.bodies[body].asset];

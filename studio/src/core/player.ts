@@ -28,6 +28,8 @@ export class Player {
   private springs: { spring: number; offset: Vec3 }[] = [];
   private bodyCount = 0;
   private mass = 1;
+  /** Of a scene, since it began. */
+  private frames = 0;
 
   constructor(private readonly core: Core, private readonly mesher: Mesher, private readonly body: Body) {}
 
@@ -38,6 +40,7 @@ export class Player {
   async start(wish: PlayWish): Promise<PlayStart> {
     this.stop();
     this.wish = wish;
+    this.frames = 0;
     const title = this.build(wish.young);
     const { core } = this;
     core.call('simulation_body_count', this.simulation, core.result);
@@ -66,6 +69,7 @@ export class Player {
     const old = this.simulation;
     this.build(young);
     core.number('simulation_destroy', old);
+    if (this.wish.scene) core.call('scene_seek', this.simulation, this.frames);
     state.forEach((arrays, body) => arrays.forEach((values, i) => core.withBytes(new Uint8Array(values.buffer), (at) =>
       core.call(i === 0 ? 'simulation_set_positions' : 'simulation_set_velocities', this.simulation, body, at,
         values.length / 3))));
@@ -142,8 +146,10 @@ export class Player {
   advance(): Frame {
     const { core } = this;
     const since = performance.now();
-    if (this.wish?.scene) core.call('scene_advance', this.simulation);
-    else core.call('simulation_step', this.simulation, kStep);
+    if (this.wish?.scene) {
+      core.call('scene_advance', this.simulation);
+      ++this.frames;
+    } else core.call('simulation_step', this.simulation, kStep);
     return { ...this.frame(), simulateMilliseconds: performance.now() - since };
   }
 
