@@ -62,7 +62,7 @@ bool holds(const TetMesh& mesh, const Vec3d& p) {
 TEST(Snap, ball_and_torus_are_met_closer_than_by_fairing) {
   const std::pair<TetMesh, BitGrid> shapes[] = {{ball(0.25), voxels_of(in_ball)}, {torus(0.2), voxels_of(in_torus)}};
   for (const auto& [mesh, inside] : shapes) {
-    const SmoothResult snapped = smooth_tets(mesh, SmoothTarget{&inside, {}});
+    const SmoothResult snapped = smooth_tets(mesh, SmoothTarget{.inside = &inside});
     expect_limits(mesh, snapped.mesh);
     EXPECT_TRUE(snapped.report.snapped);
     const double raw = intersection_over_union(mesh, inside),
@@ -83,7 +83,7 @@ TEST(Snap, volume_becomes_that_of_the_voxels) {
     for (int y = 0; y < 75; ++y)
       for (int x = 0; x < 75; ++x) count += inside.test(x, y, z);
   const double volume = static_cast<double>(count) * 0.04 * 0.04 * 0.04;
-  const SmoothResult result = smooth_tets(ball(0.25), SmoothTarget{&inside, {}});
+  const SmoothResult result = smooth_tets(ball(0.25), SmoothTarget{.inside = &inside});
   EXPECT_NEAR(result.report.volume_wanted, volume, 1e-9 * volume);
   EXPECT_NEAR(measure_quality(result.mesh).volume, volume, 1e-4 * volume);
 }
@@ -91,9 +91,29 @@ TEST(Snap, volume_becomes_that_of_the_voxels) {
 TEST(Snap, volume_that_began_far_from_the_voxels_is_left_to_the_fit) {
   const BitGrid sheet = voxels_of([](const Vec3d& p) { return std::abs(p.z) < 0.03 && std::hypot(p.x, p.y) < 1; });
   const TetMesh plate = turned_box({0.15, 1, 1}, 0.17);
-  const SmoothResult result = smooth_tets(plate, SmoothTarget{&sheet, {}});
+  const SmoothResult result = smooth_tets(plate, SmoothTarget{.inside = &sheet});
   expect_limits(plate, result.mesh);
   EXPECT_EQ(result.report.volume_wanted, 0);
+}
+
+TEST(Snap, the_rim_of_a_sheet_stays_where_the_soup_has_it) {
+  const BitGrid sheet = voxels_of([](const Vec3d&) { return false; });  // it passes between the voxels' centres
+  const TriangleSoup soup{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  const TetMesh plate = lattice_of({-1, -1, -0.2}, {1, 1, 0.2}, 0.2, [](const Vec3d& p) {
+    return std::abs(p.x) < 0.9 && std::abs(p.y) < 0.9 && std::abs(p.z) < 0.2;
+  });
+  const auto way_of_corners = [&](const TetMesh& mesh) {
+    double farthest = 0;
+    for (const Vec3& corner : soup.vertices) {
+      double nearest = 9;
+      for (const Vec3& v : mesh.vertices) nearest = std::min(nearest, length(to_double(v) - to_double(corner)));
+      farthest = std::max(farthest, nearest);
+    }
+    return farthest;
+  };
+  const SmoothResult held = smooth_tets(plate, SmoothTarget{.inside = &sheet, .soup = &soup});
+  expect_limits(plate, held.mesh);
+  EXPECT_LT(way_of_corners(held.mesh), 0.7 * way_of_corners(smooth_tets(plate, SmoothTarget{.inside = &sheet}).mesh));
 }
 
 TEST(Snap, limits_hold_whatever_is_asked_and_whatever_the_voxels_show) {
@@ -108,26 +128,26 @@ TEST(Snap, limits_hold_whatever_is_asked_and_whatever_the_voxels_show) {
     options.max_dihedral = (112 + seed * 11 % 60) * kDegree;
     options.max_edge_ratio = 1.8 + 0.1 * (seed % 30);
     const BitGrid& inside = seed % 3 == 0 ? ball_voxels : seed % 3 == 1 ? nothing : all;
-    expect_limits(mesh, smooth_tets(mesh, SmoothTarget{&inside, {}}, options).mesh, options);
+    expect_limits(mesh, smooth_tets(mesh, SmoothTarget{.inside = &inside}, options).mesh, options);
   }
 }
 
 TEST(Snap, off_is_fairing) {
   const BitGrid inside = voxels_of(in_ball);
   const TetMesh mesh = ball(0.3);
-  const SmoothResult off = smooth_tets(mesh, SmoothTarget{&inside, {}}, {.snap = Snap::Off});
+  const SmoothResult off = smooth_tets(mesh, SmoothTarget{.inside = &inside}, {.snap = Snap::Off});
   EXPECT_TRUE(same_bits(off.mesh, smooth_tets(mesh).mesh));
   EXPECT_FALSE(off.report.snapped);
-  EXPECT_TRUE(same_bits(smooth_tets(mesh, SmoothTarget{&inside, {}}, {.passes = 0}).mesh, mesh));
+  EXPECT_TRUE(same_bits(smooth_tets(mesh, SmoothTarget{.inside = &inside}, {.passes = 0}).mesh, mesh));
 }
 
 TEST(Snap, is_the_same_at_any_thread_count) {
   const BitGrid inside = voxels_of(in_torus);
   const TetMesh mesh = torus(0.15);
   set_thread_count(1);
-  const TetMesh one = smooth_tets(mesh, SmoothTarget{&inside, {}}).mesh;
+  const TetMesh one = smooth_tets(mesh, SmoothTarget{.inside = &inside}).mesh;
   set_thread_count(0);
-  EXPECT_TRUE(same_bits(one, smooth_tets(mesh, SmoothTarget{&inside, {}}).mesh));
+  EXPECT_TRUE(same_bits(one, smooth_tets(mesh, SmoothTarget{.inside = &inside}).mesh));
 }
 
 TEST(Snap, points_that_lie_in_the_mesh_stay_in_it) {
@@ -143,11 +163,11 @@ TEST(Snap, points_that_lie_in_the_mesh_stay_in_it) {
   const auto lost = [&](const TetMesh& m) {
     return std::count_if(points.begin(), points.end(), [&](const Vec3& p) { return !holds(m, to_double(p)); });
   };
-  EXPECT_GT(lost(smooth_tets(mesh, SmoothTarget{&inside, {}}).mesh), 0) << "or the test shows nothing";
-  const SmoothResult kept = smooth_tets(mesh, SmoothTarget{&inside, points});
+  EXPECT_GT(lost(smooth_tets(mesh, SmoothTarget{.inside = &inside}).mesh), 0) << "or the test shows nothing";
+  const SmoothResult kept = smooth_tets(mesh, SmoothTarget{.inside = &inside, .enclosed = points});
   EXPECT_EQ(lost(kept.mesh), 0);
   expect_limits(mesh, kept.mesh);
-  EXPECT_EQ(lost(smooth_tets(mesh, SmoothTarget{nullptr, points}).mesh), 0);
+  EXPECT_EQ(lost(smooth_tets(mesh, SmoothTarget{.enclosed = points}).mesh), 0);
 }
 
 }  // namespace tetsoup

@@ -35,8 +35,9 @@ enum class Stay {
 
 /// What smoothing may know besides the mesh.
 struct SmoothTarget {
-  const BitGrid* inside = nullptr;  ///< The pseudo volume whose surface the boundary is drawn to.
-  std::span<const Vec3> enclosed;   ///< Those of them that lie in the mesh at the start stay in it, the others out.
+  const BitGrid* inside = nullptr;      ///< The pseudo volume whose surface the boundary is drawn to.
+  const TriangleSoup* soup = nullptr;   ///< What the mesh reaches of it at the start is held on to.
+  std::span<const Vec3> enclosed = {};  ///< Those of them that lie in the mesh at the start stay in it, the others out.
   Stay stay = Stay::Free;
 };
 
@@ -79,7 +80,8 @@ SmoothResult smooth_tets(const TetMesh& mesh, const SmoothOptions& options = {},
 /// Each pass looks from points of every boundary triangle for the surface, then moves every vertex once to the least
 /// of three things weighed against each other: the distance of the triangles around it from there, the bending of the
 /// boundary, and the shape of its tets, 1 / q^3 with the mean ratio q. All moves keep the limits as above. The volume
-/// of the whole comes out as that of the pseudo volume.
+/// of the whole comes out as that of the pseudo volume. With a soup, points of it that the mesh reached and draws back
+/// from pull as well: without, a layer of tets around a sheet shrinks at its rim.
 /// Cost: O(passes x tets), whatever the size of the grid.
 SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const SmoothOptions& options = {},
                          const Progress& progress = {});

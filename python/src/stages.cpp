@@ -126,15 +126,19 @@ void bind_functions(nb::module_& m) {
       nb::arg("volume"), nb::arg("soup"), nb::arg("options"), nb::arg("progress").none());
   m.def(
       "smooth_tets",
-      [](const TetMesh& mesh, const PseudoVolume* volume, PointsIn enclosed, nb::dict options, nb::object progress) {
+      [](const TetMesh& mesh, const PseudoVolume* volume, const CleanSoup* soup, PointsIn enclosed, nb::dict options,
+         nb::object progress) {
         const SmoothOptions chosen = read_options(options, "smooth").smooth;
         const std::vector<Vec3> points = copy_rows<Vec3>(enclosed);
-        const SmoothTarget target{.inside = volume == nullptr ? nullptr : &volume->inside, .enclosed = points};
+        const SmoothTarget target{.inside = volume == nullptr ? nullptr : &volume->inside,
+                                  .soup = soup == nullptr ? nullptr : &soup->soup,
+                                  .enclosed = points};
         SmoothResult result =
             call_library(progress, [&](const Progress& watch) { return smooth_tets(mesh, target, chosen, watch); });
         return std::pair(std::move(result.mesh), std::move(result.report));
       },
-      nb::arg("mesh"), nb::arg("volume").none(), nb::arg("enclosed"), nb::arg("options"), nb::arg("progress").none());
+      nb::arg("mesh"), nb::arg("volume").none(), nb::arg("soup").none(), nb::arg("enclosed"), nb::arg("options"),
+      nb::arg("progress").none());
   m.def("fidelity", [](const TetMesh& mesh, PointsIn vertices, FacesIn faces) {
     const TriangleSoup soup = copy_soup(vertices, faces);
     return call_unlocked([&] { return measure_fidelity(mesh, clean_soup(soup)); });

@@ -28,7 +28,7 @@ def test_stages_one_by_one_give_what_one_call_gives(torus):
     assert report.tet_count == len(lattice.tets)
     assert np.array_equal(lattice.points, pipeline.lattice.mesh.points)
     assert np.array_equal(lattice.tets, whole.tets)
-    smoothed, _ = tetsoup.smooth(lattice, volume)
+    smoothed, _ = tetsoup.smooth(lattice, volume, soup)
     assert np.array_equal(smoothed.points, whole.points)
     faired, _ = tetsoup.smooth(lattice, passes=2)
     assert faired.quality.volume == pytest.approx(lattice.quality.volume, rel=1e-3)

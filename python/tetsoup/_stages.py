@@ -141,6 +141,7 @@ def fill_lattice(
 def smooth(
     mesh: TetMesh,
     volume: _core.PseudoVolume | None = None,
+    soup: Any = None,
     *,
     enclosed: Any = (),
     progress: Progress | None = None,
@@ -151,6 +152,7 @@ def smooth(
     Args:
         mesh: positive tets.
         volume: what the boundary is drawn to; None: it is only faired.
+        soup: with a volume: what the mesh reaches of it at the start is held on to (rims, tips); None: it may draw back.
         enclosed: (N, 3) points; those that lie in the mesh at the start stay in it.
 
     Raises:
@@ -160,7 +162,9 @@ def smooth(
         >>> smoothed, report = tetsoup.smooth(mesh, volume, passes=20)
     """
     points = as_points(enclosed, "enclosed")
-    smoothed, report = _core.smooth_tets(mesh._handle, volume, points, dict(options), progress)
+    smoothed, report = _core.smooth_tets(
+        mesh._handle, volume, None if soup is None else _clean(soup), points, dict(options), progress
+    )
     return SmoothResult(TetMesh._wrap(smoothed), report)
 
 

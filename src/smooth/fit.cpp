@@ -1,6 +1,7 @@
 #include "smooth/fit.h"
 
 #include <cmath>
+#include <optional>
 
 #include "base/bits.h"
 #include "smooth/aims.h"
@@ -50,14 +51,18 @@ double boundary_area(const Connectivity& links, const GuardedMesh& mesh) {
 
 }  // namespace
 
-double fit_to_surface(const Connectivity& links, const BitGrid& inside, int passes, GuardedMesh& mesh,
+double fit_to_surface(const Connectivity& links, const SmoothTarget& target, int passes, GuardedMesh& mesh,
                       StageWatch& watch) {
+  const BitGrid& inside = *target.inside;
   const double edge = mean_edge(links, mesh), volume = volume_of(inside);
   const double wanted = std::abs(volume_of(mesh) - volume) < kNear * volume ? volume : 0;
   double level = 0;
+  std::optional<SoupPoints> points;
+  if (target.soup != nullptr) points.emplace(*target.soup, links, mesh.mesh(), edge, watch);
   for (int pass = 0; pass < passes; ++pass) {
     watch.enter_part(kShareOfPasses * pass / passes, kShareOfPasses * (pass + 1) / passes);
-    const auto aims = aim_at_surface(links, mesh, inside, kReach * edge, level, watch);
+    BoundaryAims aims{aim_at_surface(links, mesh, inside, kReach * edge, level, watch), {}};
+    if (points) aims.pulls = points->pulls(links, mesh, watch);
     mesh.look_around(watch);
     relax(links, aims, edge, pass % 2 == 0 ? Sweep::Forwards : Sweep::Backwards, mesh, watch);
     // Chords and what blunts edges take volume: the next pass aims as far outside as gives it back.

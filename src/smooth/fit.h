@@ -4,13 +4,13 @@
 #include "base/parallel.h"
 #include "smooth/connectivity.h"
 #include "smooth/guard.h"
-#include "tetsoup/types.h"
+#include "tetsoup/smooth.h"
 
 namespace tetsoup {
 
 /// Fits the boundary in `passes` steps, then brings the volume near that of the inside voxels, if it began near it.
 /// @return  The volume aimed at; 0 where it did not begin near.
-double fit_to_surface(const Connectivity& links, const BitGrid& inside, int passes, GuardedMesh& mesh,
+double fit_to_surface(const Connectivity& links, const SmoothTarget& target, int passes, GuardedMesh& mesh,
                       StageWatch& watch);
 
 }  // namespace tetsoup

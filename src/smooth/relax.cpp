@@ -11,6 +11,7 @@ namespace {
 // Measured at 2,000 tets on all models: twice the distance or half the others leaves 1 degree more of roughness for
 // .003 of overlap, and the other way round.
 constexpr double kDistance = 2000;  // Squared distance of a boundary point from the surface, a unit of area.
+constexpr double kPull = 300;       // Squared distance from a point of the soup that was let go.
 constexpr double kFlat = 100;       // Squared distance of a corner from where its triangle's mean normal would have it.
 constexpr double kBend = 100;       // Squared distance from where the boundary would bend as it does around.
 
@@ -43,7 +44,7 @@ struct LocalModel {
 
 class Relaxation {
  public:
-  Relaxation(const Connectivity& links, const std::vector<TriangleAim>& aims, double edge, GuardedMesh& mesh)
+  Relaxation(const Connectivity& links, const BoundaryAims& aims, double edge, GuardedMesh& mesh)
       : links_(links), aims_(aims), edge_(edge), to_edges_(1 / edge), mesh_(mesh) {}
 
   void visit(std::uint32_t v) {
@@ -87,10 +88,11 @@ class Relaxation {
       const std::size_t own = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
       const Vec3d b = arm(at, corners[(own + 1) % 3]), c = arm(at, corners[(own + 2) % 3]);
       normal += cross(b, c);
-      const TriangleAim& aim = aims_[triangle];
+      const TriangleAim& aim = aims_.triangles[triangle];
       const double area = aim.area * to_edges_ * to_edges_;
       model.add_plane(aim.normal, -dot(aim.normal, b + c) / 2, kFlat * area);
       add_distance(aim, own, at, b, c, area, model);
+      if (aims_.pulls.size() > 0) add_pulls(triangle, own, at, b, c, model);
     }
     add_bend(v, normal, model);
   }
@@ -105,6 +107,16 @@ class Relaxation {
                           dot(sample.normal, b * w[(own + 1) % 3] + c * w[(own + 2) % 3]);
       // A move of the vertex moves the sample by its share of it.
       model.add_plane(sample.normal * w[own], away, kDistance * area / static_cast<double>(kSamples));
+    }
+  }
+
+  void add_pulls(std::uint32_t triangle, std::size_t own, const Vec3d& at, const Vec3d& b, const Vec3d& c,
+                 LocalModel& model) const {
+    for (const Pull& pull : aims_.pulls[triangle]) {
+      const auto& w = pull.weights;
+      const double away = (dot(pull.normal, at) - pull.offset) * to_edges_ +
+                          dot(pull.normal, b * w[(own + 1) % 3] + c * w[(own + 2) % 3]);
+      if (away < 0) model.add_plane(pull.normal * w[own], away, kPull);
     }
   }
 
@@ -132,14 +144,14 @@ class Relaxation {
   }
 
   const Connectivity& links_;
-  const std::vector<TriangleAim>& aims_;
+  const BoundaryAims& aims_;
   double edge_, to_edges_;
   GuardedMesh& mesh_;
 };
 
 }  // namespace
 
-void relax(const Connectivity& links, const std::vector<TriangleAim>& aims, double edge, Sweep sweep, GuardedMesh& mesh,
+void relax(const Connectivity& links, const BoundaryAims& aims, double edge, Sweep sweep, GuardedMesh& mesh,
            StageWatch& watch) {
   Relaxation relaxation(links, aims, edge, mesh);
   const std::size_t count = mesh.mesh().vertices.size();

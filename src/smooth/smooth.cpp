@@ -159,7 +159,7 @@ SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const 
     fair(links, options, moving, watch);
     return {moving.mesh(), report_on(links, moving, options.passes)};
   }
-  const double wanted = fit_to_surface(links, *target.inside, options.passes, moving, watch);
+  const double wanted = fit_to_surface(links, target, options.passes, moving, watch);
   SmoothReport report = report_on(links, moving, options.passes);
   report.snapped = true;
   report.volume_wanted = wanted;
