@@ -267,8 +267,9 @@ tetsoup_status tetsoup_scene_load(const char* text, const char* folder, tetsoup_
                                   tetsoup_simulation** simulation);
 /* Simulates one frame of a loaded scene, 1 / fps seconds; pins that are moved by hand move. */
 tetsoup_status tetsoup_scene_advance(tetsoup_simulation* simulation);
-/* Where time stands in a loaded scene after so many frames: pins that are moved or let go by then are; what moves freely
- * stays where it is. For a scene that is loaded anew, as of another material, and given the places of the old one. */
+/* Where time stands in a loaded scene after so many frames: pins that are moved or let go by then are; what moves
+ * freely stays where it is. For a scene that is loaded anew, as of another material, and given the places of the old
+ * one. */
 tetsoup_status tetsoup_scene_seek(tetsoup_simulation* simulation, size_t frame);
 /* Obstacles of a loaded scene that are no planes: (N, 3) and (T, 3) where they stand. */
 tetsoup_status tetsoup_scene_obstacle_count(const tetsoup_simulation* simulation, size_t* count);
