@@ -152,7 +152,7 @@ def smooth(
     Args:
         mesh: positive tets.
         volume: what the boundary is drawn to; None: it is only faired.
-        soup: with a volume: what the mesh reaches of it at the start is held on to (rims, tips); None: it may draw back.
+        soup: with a volume: what the mesh reaches of it at first is held on to (rims, tips); None: it may draw back.
         enclosed: (N, 3) points; those that lie in the mesh at the start stay in it.
 
     Raises:
