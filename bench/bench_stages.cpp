@@ -104,7 +104,7 @@ void add_stage_rows(const Case& which) {
   add_row(row_name("smooth", which), [which](benchmark::State& state) {
     const Prepared& ready = prepared(which.soup, which.voxels);
     const TetMesh& mesh = ready.pipeline.lattice().mesh;
-    const SmoothTarget target{.inside = &ready.pipeline.pseudo_volume().inside};
+    const SmoothTarget target{.inside = &ready.pipeline.pseudo_volume().inside, .soup = &ready.pipeline.soup().soup};
     for (auto _ : state) benchmark::DoNotOptimize(smooth_tets(mesh, target).report.volume_after);
     state.counters["tets"] = count_of(mesh.tets.size());
   });

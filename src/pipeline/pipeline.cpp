@@ -284,8 +284,10 @@ void Pipeline::smooth_all(const Progress& progress) {
     SmoothTarget target;
     target.inside = &body.volume->inside;
     if (options_.lattice.cover == Cover::Enclose) target.enclosed = soup_of(body).soup.vertices;
-    if (options_.lattice.cover != Cover::Inside) target.soup = &soup_of(body).soup;
-    if (options_.lattice.cover == Cover::Inside) target.stay = Stay::WithinVolume;
+    if (options_.lattice.cover == Cover::Inside)
+      target.stay = Stay::WithinVolume;
+    else
+      target.soup = &soup_of(body).soup;
     body.smooth = smooth_tets(body.lattice->mesh, target, options_.smooth, steps.next());
     results.push_back(&*body.smooth);
   }

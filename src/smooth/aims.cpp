@@ -53,14 +53,6 @@ class VoxelProbe {
   double reach_, step_;
 };
 
-/// Unit normals by vertex; zero inside and where the triangles around cancel out.
-std::vector<Vec3d> unit_normals(const Connectivity& links, const GuardedMesh& mesh) {
-  const std::vector<Vec3d> gradients = volume_gradients(links, mesh);
-  std::vector<Vec3d> normals(mesh.mesh().vertices.size());
-  for (std::size_t i = 0; i < gradients.size(); ++i) normals[links.boundary[i]] = unit_or_zero(gradients[i]);
-  return normals;
-}
-
 TriangleAim aim_triangle(const std::array<Vec3d, 3>& corners, const std::array<Vec3d, 3>& normals,
                          const VoxelProbe& probe, double level) {
   TriangleAim aim;
@@ -79,9 +71,16 @@ TriangleAim aim_triangle(const std::array<Vec3d, 3>& corners, const std::array<V
 
 }  // namespace
 
-std::vector<TriangleAim> aim_at_surface(const Connectivity& links, const GuardedMesh& mesh, const BitGrid& inside,
-                                        double reach, double level, StageWatch& watch) {
-  const std::vector<Vec3d> normals = unit_normals(links, mesh);
+std::vector<Vec3d> unit_normals(const Connectivity& links, const GuardedMesh& mesh) {
+  const std::vector<Vec3d> gradients = volume_gradients(links, mesh);
+  std::vector<Vec3d> normals(mesh.mesh().vertices.size());
+  for (std::size_t i = 0; i < gradients.size(); ++i) normals[links.boundary[i]] = unit_or_zero(gradients[i]);
+  return normals;
+}
+
+std::vector<TriangleAim> aim_at_surface(const Connectivity& links, const GuardedMesh& mesh,
+                                        std::span<const Vec3d> normals, const BitGrid& inside, double reach,
+                                        double level, StageWatch& watch) {
   const VoxelProbe probe(inside, reach);
   std::vector<TriangleAim> aims(links.triangles.size());
   parallel_for(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "base/parallel.h"
@@ -34,11 +35,16 @@ struct TriangleAim {
   double area = 0;
 };
 
+/// Unit normals by vertex; zero inside and where the triangles around cancel out.
+std::vector<Vec3d> unit_normals(const Connectivity& links, const GuardedMesh& mesh);
+
 /// Looks from every sample along the normal for the place where the voxels change: outwards from an inside voxel,
 /// inwards from an outside one, as far as `reach`.
 ///
+/// @param normals  As unit_normals() gives them.
 /// @param level  How far outside of there the boundary should lie.
-std::vector<TriangleAim> aim_at_surface(const Connectivity& links, const GuardedMesh& mesh, const BitGrid& inside,
-                                        double reach, double level, StageWatch& watch);
+std::vector<TriangleAim> aim_at_surface(const Connectivity& links, const GuardedMesh& mesh,
+                                        std::span<const Vec3d> normals, const BitGrid& inside, double reach,
+                                        double level, StageWatch& watch);
 
 }  // namespace tetsoup

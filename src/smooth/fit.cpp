@@ -61,8 +61,9 @@ double fit_to_surface(const Connectivity& links, const SmoothTarget& target, int
   if (target.soup != nullptr) points.emplace(*target.soup, links, mesh.mesh(), edge, watch);
   for (int pass = 0; pass < passes; ++pass) {
     watch.enter_part(kShareOfPasses * pass / passes, kShareOfPasses * (pass + 1) / passes);
-    BoundaryAims aims{aim_at_surface(links, mesh, inside, kReach * edge, level, watch), {}};
-    if (points) aims.pulls = points->pulls(links, mesh, watch);
+    const std::vector<Vec3d> normals = unit_normals(links, mesh);
+    BoundaryAims aims{aim_at_surface(links, mesh, normals, inside, kReach * edge, level, watch), {}};
+    if (points) aims.pulls = points->pulls(links, mesh.mesh(), normals, watch);
     mesh.look_around(watch);
     relax(links, aims, edge, pass % 2 == 0 ? Sweep::Forwards : Sweep::Backwards, mesh, watch);
     // Chords and what blunts edges take volume: the next pass aims as far outside as gives it back.

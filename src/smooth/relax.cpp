@@ -103,19 +103,25 @@ class Relaxation {
       const Aim& sample = aim.samples[i];
       if (!sample.in_reach) continue;
       const auto& w = kSampleWeights[i];
-      const double away = (dot(sample.normal, at) - sample.offset) * to_edges_ +
-                          dot(sample.normal, b * w[(own + 1) % 3] + c * w[(own + 2) % 3]);
+      const double away = way_beyond(sample, w, own, at, b, c);
       // A move of the vertex moves the sample by its share of it.
       model.add_plane(sample.normal * w[own], away, kDistance * area / static_cast<double>(kSamples));
     }
+  }
+
+  /// How far a place of the triangle lies beyond dot(normal, x) = offset, in mean edges.
+  template <class Plane>
+  double way_beyond(const Plane& plane, const std::array<double, 3>& weights, std::size_t own, const Vec3d& at,
+                    const Vec3d& b, const Vec3d& c) const {
+    return (dot(plane.normal, at) - plane.offset) * to_edges_ +
+           dot(plane.normal, b * weights[(own + 1) % 3] + c * weights[(own + 2) % 3]);
   }
 
   void add_pulls(std::uint32_t triangle, std::size_t own, const Vec3d& at, const Vec3d& b, const Vec3d& c,
                  LocalModel& model) const {
     for (const Pull& pull : aims_.pulls[triangle]) {
       const auto& w = pull.weights;
-      const double away = (dot(pull.normal, at) - pull.offset) * to_edges_ +
-                          dot(pull.normal, b * w[(own + 1) % 3] + c * w[(own + 2) % 3]);
+      const double away = way_beyond(pull, w, own, at, b, c);
       if (away < 0) model.add_plane(pull.normal * w[own], away, kPull);
     }
   }

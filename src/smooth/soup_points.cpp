@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/triangle_boxes.h"
-#include "smooth/volume.h"
+#include "smooth/facets.h"
 
 namespace tetsoup {
 
@@ -48,7 +48,7 @@ class Thinning {
   std::vector<bool> taken_;
 };
 
-void add_inside(const std::array<Vec3d, 3>& corners, double spacing, Thinning& thinning) {
+void add_inside(const TriangleCorners& corners, double spacing, Thinning& thinning) {
   const double longest =
       std::sqrt(std::max({squared_length(corners[1] - corners[0]), squared_length(corners[2] - corners[1]),
                           squared_length(corners[0] - corners[2])}));
@@ -62,12 +62,8 @@ void add_inside(const std::array<Vec3d, 3>& corners, double spacing, Thinning& t
   }
 }
 
-std::array<Vec3d, 3> corners_at(const GuardedMesh& mesh, const Triangle& t) {
-  return {mesh.at(t[0]), mesh.at(t[1]), mesh.at(t[2])};
-}
-
 /// Weights of the corners for a point of the triangle.
-std::array<double, 3> weights_of(const std::array<Vec3d, 3>& t, const Vec3d& p) {
+std::array<double, 3> weights_of(const TriangleCorners& t, const Vec3d& p) {
   const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
   const double area = squared_length(normal);
   if (!(area > 0)) return {1, 0, 0};
@@ -77,7 +73,7 @@ std::array<double, 3> weights_of(const std::array<Vec3d, 3>& t, const Vec3d& p) 
 }
 
 /// From the triangle to whichever of those around its corners is nearer, until none is or one is near enough.
-std::uint32_t walk_to_nearest(const Connectivity& links, const GuardedMesh& mesh, std::uint32_t start, const Vec3d& p,
+std::uint32_t walk_to_nearest(const Connectivity& links, const TetMesh& mesh, std::uint32_t start, const Vec3d& p,
                               double enough, Vec3d& nearest) {
   nearest = closest_on_triangle(corners_at(mesh, links.triangles[start]), p);
   double least = squared_length(nearest - p);
@@ -97,18 +93,19 @@ std::uint32_t walk_to_nearest(const Connectivity& links, const GuardedMesh& mesh
 
 SoupPoints::SoupPoints(const TriangleSoup& soup, const Connectivity& links, const TetMesh& mesh, double edge,
                        StageWatch& watch)
-    : edge_(edge), spacing_(kSpacing * edge) {
+    : edge_(edge) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Box3 box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   for (const std::uint32_t v : links.boundary) {
     const Vec3d p = to_double(mesh.vertices[v]);
     box = {min(box.lo, p), max(box.hi, p)};
   }
-  Thinning thinning(box, spacing_);
+  const double spacing = kSpacing * edge;
+  Thinning thinning(box, spacing);
   for (const Vec3& v : soup.vertices) thinning.add(to_double(v));
   for (const Triangle& t : soup.triangles) {
     const auto corner = [&](std::size_t i) { return to_double(soup.vertices[t[i]]); };
-    add_inside({corner(0), corner(1), corner(2)}, spacing_, thinning);
+    add_inside({corner(0), corner(1), corner(2)}, spacing, thinning);
   }
   for (const Vec3d& p : thinning.points) points_.push_back({p, kNone});
   find_nearest(links, mesh, watch);
@@ -133,13 +130,8 @@ void SoupPoints::find_nearest(const Connectivity& links, const TetMesh& mesh, St
   std::erase_if(points_, [](const Point& point) { return point.triangle == kNone; });
 }
 
-Groups<Pull> SoupPoints::pulls(const Connectivity& links, const GuardedMesh& mesh, StageWatch& watch) {
-  std::vector<Vec3d> normals(mesh.mesh().vertices.size());
-  const std::vector<Vec3d> gradients = volume_gradients(links, mesh);
-  for (std::size_t i = 0; i < gradients.size(); ++i) {
-    const double size = length(gradients[i]);
-    if (size > 0) normals[links.boundary[i]] = gradients[i] * (1 / size);
-  }
+Groups<Pull> SoupPoints::pulls(const Connectivity& links, const TetMesh& mesh, std::span<const Vec3d> normals,
+                               StageWatch& watch) {
   const double allowed = kAllowed * edge_;
   std::vector<Pull> found(points_.size());
   parallel_for(static_cast<std::int64_t>(points_.size()), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {

@@ -3,12 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/groups.h"
 #include "base/parallel.h"
 #include "smooth/connectivity.h"
-#include "smooth/guard.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
@@ -30,9 +30,9 @@ class SoupPoints {
   SoupPoints(const TriangleSoup& soup, const Connectivity& links, const TetMesh& mesh, double edge, StageWatch& watch);
 
   /// What pulls at every boundary triangle as the mesh lies now. It follows the mesh from call to call.
-  Groups<Pull> pulls(const Connectivity& links, const GuardedMesh& mesh, StageWatch& watch);
-
-  double spacing() const { return spacing_; }  ///< About how far the points are apart.
+  ///
+  /// @param normals  As unit_normals() gives them.
+  Groups<Pull> pulls(const Connectivity& links, const TetMesh& mesh, std::span<const Vec3d> normals, StageWatch& watch);
 
  private:
   struct Point {
@@ -42,7 +42,7 @@ class SoupPoints {
 
   void find_nearest(const Connectivity& links, const TetMesh& mesh, StageWatch& watch);
 
-  double edge_, spacing_;
+  double edge_;
   std::vector<Point> points_;
 };
 
