@@ -116,6 +116,14 @@ TEST(Snap, the_rim_of_a_sheet_stays_where_the_soup_has_it) {
   EXPECT_LT(way_of_corners(held.mesh), 0.7 * way_of_corners(smooth_tets(plate, SmoothTarget{.inside = &sheet}).mesh));
 }
 
+TEST(Snap, a_soup_far_larger_than_the_mesh_costs_no_more) {
+  const BitGrid inside = voxels_of(in_ball);
+  const TetMesh mesh = ball(0.3);
+  const float far = 1e9F;  // with all its points, 10^19 of them, this would not end
+  const TriangleSoup floor{{{-far, -far, 0}, {far, -far, 0}, {0, far, 0}}, {{0, 1, 2}}};
+  expect_limits(mesh, smooth_tets(mesh, SmoothTarget{.inside = &inside, .soup = &floor}).mesh);
+}
+
 TEST(Snap, limits_hold_whatever_is_asked_and_whatever_the_voxels_show) {
   const BitGrid ball_voxels = voxels_of(in_ball), nothing = voxels_of([](const Vec3d&) { return false; }),
                 all = voxels_of([](const Vec3d&) { return true; });

@@ -16,24 +16,32 @@ constexpr double kSpacing = 0.3;
 constexpr double kReach = 0.75;       // A point that is farther from the boundary at the start has no part in it.
 constexpr double kAllowed = 0.25;     // So far the boundary may draw back from a point.
 constexpr std::int64_t kGrain = 256;  // points
+constexpr std::size_t kTrianglesPerPoll = 1024;
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-/// One point of the soup for every cube that it comes to: the first found.
+/// One point of the soup for every cube of a box that it comes to: the first found.
 class Thinning {
  public:
-  Thinning(const Box3& box, double size) : lo_(box.lo), size_(size) {
+  Thinning(const Box3& box, double size) : box_(box), size_(size) {
     const Vec3d e = box.hi - box.lo;
     const auto cells = [&](double l) { return static_cast<std::size_t>(l / size) + 1; };
     count_ = {cells(e.x), cells(e.y), cells(e.z)};
     taken_.assign(count_[0] * count_[1] * count_[2], false);
   }
 
+  double size() const { return size_; }
+  bool meets(const Vec3d& lo, const Vec3d& hi) const {
+    return lo.x <= box_.hi.x && lo.y <= box_.hi.y && lo.z <= box_.hi.z && hi.x >= box_.lo.x && hi.y >= box_.lo.y &&
+           hi.z >= box_.lo.z;
+  }
+
   void add(const Vec3d& p) {
+    if (!meets(p, p)) return;
     const auto along = [&](double way, std::size_t count) {
-      return std::min(static_cast<std::size_t>(std::max(way / size_, 0.0)), count - 1);
+      return std::min(static_cast<std::size_t>(way / size_), count - 1);
     };
-    const std::size_t x = along(p.x - lo_.x, count_[0]), y = along(p.y - lo_.y, count_[1]),
-                      z = along(p.z - lo_.z, count_[2]), cell = (z * count_[1] + y) * count_[0] + x;
+    const std::size_t x = along(p.x - box_.lo.x, count_[0]), y = along(p.y - box_.lo.y, count_[1]),
+                      z = along(p.z - box_.lo.z, count_[2]), cell = (z * count_[1] + y) * count_[0] + x;
     if (taken_[cell]) return;
     taken_[cell] = true;
     points.push_back(p);
@@ -42,22 +50,33 @@ class Thinning {
   std::vector<Vec3d> points;
 
  private:
-  Vec3d lo_;
+  Box3 box_;
   double size_;
   std::array<std::size_t, 3> count_{};
   std::vector<bool> taken_;
 };
 
-void add_inside(const TriangleCorners& corners, double spacing, Thinning& thinning) {
-  const double longest =
-      std::sqrt(std::max({squared_length(corners[1] - corners[0]), squared_length(corners[2] - corners[1]),
-                          squared_length(corners[0] - corners[2])}));
-  if (longest <= spacing) return;
-  const auto steps = static_cast<int>(std::ceil(longest / spacing));
+/// Points of a triangle. One that is far larger than the box is halved, so that what lies beyond the box costs nothing.
+void add_inside(const TriangleCorners& p, Thinning& thinning) {
+  constexpr double kMostSteps = 1024;
+  if (!thinning.meets(min(min(p[0], p[1]), p[2]), max(max(p[0], p[1]), p[2]))) return;
+  const std::array<double, 3> sides{squared_length(p[1] - p[0]), squared_length(p[2] - p[1]),
+                                    squared_length(p[0] - p[2])};
+  const auto side = static_cast<std::size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
+  const double longest = std::sqrt(sides[side]);
+  if (longest <= thinning.size()) return;
+  const double wanted = std::ceil(longest / thinning.size());
+  if (wanted > kMostSteps) {
+    const Vec3d &a = p[side], &b = p[(side + 1) % 3], &c = p[(side + 2) % 3], middle = (a + b) * 0.5;
+    add_inside({a, middle, c}, thinning);
+    add_inside({middle, b, c}, thinning);
+    return;
+  }
+  const auto steps = static_cast<int>(wanted);
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; i + j <= steps; ++j) {
       const double u = static_cast<double>(i) / steps, v = static_cast<double>(j) / steps;
-      thinning.add(corners[0] + (corners[1] - corners[0]) * u + (corners[2] - corners[0]) * v);
+      thinning.add(p[0] + (p[1] - p[0]) * u + (p[2] - p[0]) * v);
     }
   }
 }
@@ -100,13 +119,15 @@ SoupPoints::SoupPoints(const TriangleSoup& soup, const Connectivity& links, cons
     const Vec3d p = to_double(mesh.vertices[v]);
     box = {min(box.lo, p), max(box.hi, p)};
   }
-  const double spacing = kSpacing * edge;
-  Thinning thinning(box, spacing);
+  const Vec3d reach = Vec3d{1, 1, 1} * (kReach * edge);
+  Thinning thinning({box.lo - reach, box.hi + reach}, kSpacing * edge);
   for (const Vec3& v : soup.vertices) thinning.add(to_double(v));
-  for (const Triangle& t : soup.triangles) {
-    const auto corner = [&](std::size_t i) { return to_double(soup.vertices[t[i]]); };
-    add_inside({corner(0), corner(1), corner(2)}, spacing, thinning);
+  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+    if (i % kTrianglesPerPoll == 0) watch.poll();
+    const auto corner = [&](std::size_t k) { return to_double(soup.vertices[soup.triangles[i][k]]); };
+    add_inside({corner(0), corner(1), corner(2)}, thinning);
   }
+  watch.throw_if_stopped();
   for (const Vec3d& p : thinning.points) points_.push_back({p, kNone});
   find_nearest(links, mesh, watch);
 }
