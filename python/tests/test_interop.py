@@ -52,8 +52,9 @@ def test_pyvista(cube, mesh):
     vertices, faces = cube
     assert_meshes_like(pyvista.PolyData.from_regular_faces(vertices, faces), vertices, faces)
     box = pyvista.Cube(center=(0.5, 0.5, 0.5)).clean()
-    assert_meshes_like(box, vertices, faces)
-    assert_meshes_like(pyvista.MultiBlock([box]), vertices, faces)
+    cut = box.points, box.triangulate().regular_faces  # along other diagonals than the cube's
+    assert_meshes_like(box, *cut)
+    assert_meshes_like(pyvista.MultiBlock([box]), *cut)
     assert_meshes_like(grid, mesh.points, mesh.surface)
 
 
