@@ -24,7 +24,7 @@ TEST(ReadOff, all_variants_put_the_position_first) {
 }
 
 TEST(ReadOff, counts_may_follow_the_keyword_or_lack_it_or_lack_the_edges) {
-  for (const char* header : {"OFF 4 1 4\n", "OFF\r\n4 1\r\n", "4 1 0\n",
+  for (const char* header : {"OFF 4 1 4\n", "OFF\r\n4 1\r\n", "4 1 0\n", "OFF4 1 4\n",
                              "# made by hand\n\nOFF # here\n# counts\n4 1 0 # so\n", "\xEF\xBB\xBFOFF\n\n4\n1 0\n"}) {
     EXPECT_EQ(parse(square(header, "", ""), kOff).triangles, kQuad) << header;
   }
@@ -39,6 +39,10 @@ TEST(ReadOff, wild_indices_stay_wild_and_short_polygons_leave_nothing) {
 TEST(ReadOff, what_is_not_supported_says_so) {
   EXPECT_ERROR("OFF BINARY\n1234", kOff, "binary OFF is not supported");
   EXPECT_ERROR("4OFF\n1 0 0\n0 0 0 1\n", kOff, "3 dimensions");
+}
+
+TEST(ReadOff, a_word_that_only_begins_like_the_keyword_is_none) {
+  EXPECT_ERROR("OFFICE 4 1 4\n", kOff, "expected a whole number, found 'OFFICE'");
 }
 
 TEST(ReadOff, errors_name_the_line) {

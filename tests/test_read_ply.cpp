@@ -67,6 +67,32 @@ TEST(ReadPly, a_point_cloud_has_no_triangles) {
   EXPECT_EQ(parse(points("ascii", 1) + "end_header\n1 2 3", kPly).vertices.size(), 1U);
 }
 
+TEST(ReadPly, numbers_behind_a_record_that_the_header_does_not_tell_of_are_passed_over) {
+  const std::string faces = "element face 2\nproperty list uchar int vertex_indices\n";
+  const TriangleSoup soup = parse(
+      points("ascii", 4) + faces + "end_header\n0 0 0 9\n1 0 0 9\n\n1 1 0 9\n0 1 0 9\n3 0 1 2 9 1 1 1\n3 0 2 3 7\n",
+      kPly);
+  EXPECT_EQ(soup.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(soup.vertices[3], (Vec3{0, 1, 0}));
+}
+
+TEST(ReadPly, records_need_no_line_of_their_own) {
+  const std::string faces = "element face 2\nproperty list uchar int vertex_indices\n";
+  for (const char* body : {"0 0 0 1 0 0 1 1 0 0 1 0\n3 0 1 2 3 0 2 3\n", "0 0\n0 1 0 0 1\n1 0 0 1 0 3 0 1 2\n3 0 2 3"})
+    EXPECT_EQ(parse(points("ascii", 4) + faces + "end_header\n" + body, kPly).triangles,
+              (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}))
+        << body;
+}
+
+TEST(ReadPly, a_remark_without_the_word_comment_is_one_but_a_declaration_misspelt_is_not) {
+  const std::string rest =
+      "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
+  EXPECT_EQ(parse("ply\nformat ascii 1.0\nCreated by hand\n" + rest, kPly).vertices.size(), 1U);
+  EXPECT_ERROR("ply\nformat ascii 1.0\n" + rest.substr(0, 17) + "propery float w\n" + rest.substr(17), kPly,
+               "line 4: expected a header line of a PLY file, found 'propery'");
+  EXPECT_ERROR("ply\nformat ascii 1.0\nelemnt vertex 1\n" + rest, kPly, "line 3: expected a header line");
+}
+
 TEST(ReadPly, numbers_that_are_none_and_wild_indices_are_passed_on) {
   const TriangleSoup soup = parse(points("ascii", 1) +
                                       "element face 3\nproperty list uchar double vertex_index\nend_header\nnan inf 3\n"

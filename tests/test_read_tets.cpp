@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/number_text.h"
 #include "io/tet_readers.h"
 #include "tet_file_dialects.h"
 #include "tet_file_fixtures.h"
@@ -218,6 +219,22 @@ TEST(ReadTets, indices_beyond_the_vertices_name_their_line) {
             std::string::npos);
   EXPECT_NE(error_of(parse_vtu, replaced(vtu(mesh, VtuData::Text), "0 1 2 3 0", "0 1 2 9 0")).find("f: line 14: "),
             std::string::npos);
+}
+
+TEST(ReadTets, a_number_has_one_sign) {
+  const std::string cube = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n";
+  for (const char* word : {"+-1", "-+1", "++1", "--1"}) {
+    try {
+      parse_vtk(cube + word + " 0 0\n", "sample");
+      ADD_FAILURE() << word;
+    } catch (const IoError& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  }
+  double value = 0;
+  EXPECT_TRUE(parse_real("+1.5", value));
+  EXPECT_EQ(value, 1.5);
+  EXPECT_FALSE(parse_real("+-1.5", value));
 }
 
 TEST(ReadTets, doubles_are_rounded_to_the_nearest_float) {

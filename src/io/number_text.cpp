@@ -115,8 +115,7 @@ void append_float(std::string& text, float value) {
 }
 
 bool parse_real(std::string_view word, double& value) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  return parse_plain(word, value);
+  return parse_plain(without_plus(word), value);
 }
 
 }  // namespace tetsoup

@@ -45,6 +45,12 @@ void append_line(std::string& text, First first, Rest... rest) {
   text += '\n';
 }
 
+/// Without the + that may stand before a number; before another sign it stays, and makes it none.
+inline std::string_view without_plus(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  return word;
+}
+
 /// Nearest double to the number that is the whole of `word`; beyond its range that is infinity or zero. False if it is
 /// no number.
 bool parse_real(std::string_view word, double& value);

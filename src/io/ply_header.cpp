@@ -1,5 +1,6 @@
 #include "io/ply_header.h"
 
+#include <algorithm>
 #include <array>
 
 #include "io/text_scanner.h"
@@ -71,6 +72,21 @@ Property read_property(TextScanner& text) {
   return {std::string(next_word(text)), type, count_type};
 }
 
+/// Some programs leave out the word "comment". What may be a declaration with a word misspelt is none of those: without
+/// it the records would be read wrongly.
+void pass_over_remark(TextScanner& text) {
+  TextScanner ahead = text;
+  ahead.word();
+  const std::string_view second = next_word(ahead);
+  ahead.skip_blanks();
+  std::string_view third = ahead.word();
+  const bool typed = second == "list" || std::any_of(kTypes.begin(), kTypes.end(), [&](const TypeName& type) {
+                       return second == type.name || second == type.sized_name;
+                     });
+  const bool counted = !third.empty() && third.find_first_not_of("0123456789") == third.npos;
+  if (typed || counted) text.fail_expected("a header line of a PLY file");
+}
+
 void skip_first_line(TextScanner& text) {
   TextScanner ahead = text;
   if (ahead.word() != "ply") text.fail_expected("'ply'");
@@ -123,7 +139,7 @@ Header read_header(const Source& source) {
       header.body_line = text.line();
       return header;
     } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
-      text.fail_expected("a header line of a PLY file");
+      pass_over_remark(text);
     }
   }
   text.fail("the file ends before 'end_header'");

@@ -7,12 +7,13 @@ namespace tetsoup::readers {
 namespace {
 
 struct Keyword {
-  bool known = false;
+  std::size_t length = 0;         // characters; 0: it is none
   bool higher_dimension = false;  // 4OFF, nOFF
 };
 
-/// [ST][C][N][4][n]OFF
+/// [ST][C][N][4][n]OFF, which the number of vertices may follow without a blank.
 Keyword classify(std::string_view word) {
+  const std::size_t word_length = word.size();
   const auto take = [&](std::string_view prefix) {
     const bool there = word.starts_with(prefix);
     if (there) word.remove_prefix(prefix.size());
@@ -22,15 +23,16 @@ Keyword classify(std::string_view word) {
   take("C");
   take("N");
   const bool four = take("4"), n = take("n");
-  return {word == "OFF", four || n};
+  if (!take("OFF") || !std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; })) return {};
+  return {word_length - word.size(), four || n};
 }
 
 void read_keyword(TextScanner& text) {
   TextScanner ahead = text;
   const Keyword keyword = classify(ahead.word());
-  if (!keyword.known) return;  // the keyword is optional; counts that are none will fail
+  if (keyword.length == 0) return;  // the keyword is optional; counts that are none will fail
   if (keyword.higher_dimension) text.fail("OFF files of other than 3 dimensions are not supported");
-  text = ahead;
+  text.skip_characters(keyword.length);
   text.skip_blanks();
   if (text.rest().starts_with("BINARY")) text.fail("binary OFF is not supported: export as text");
 }
@@ -79,7 +81,7 @@ bool is_off(std::span<const std::byte> bytes) {
   constexpr std::size_t kProbe = 4096;  // bytes of leading comments and spaces to look behind
   TextScanner text({bytes.first(std::min(kProbe, bytes.size())), ""});
   text.skip_space_and_comments();
-  return classify(text.word()).known;
+  return classify(text.word()).length > 0;
 }
 
 template <class Sink>

@@ -14,7 +14,8 @@ namespace {
 
 using namespace ply;
 
-// The two bodies have the same members: one number, a list's length, passing over numbers, room for records.
+// The two bodies have the same members: one number, a list's length, passing over numbers, room for records, the end
+// of one.
 
 class BinaryBody {
  public:
@@ -70,6 +71,8 @@ class BinaryBody {
          ", more than the file has room for");
   }
 
+  void end_record() {}
+
   [[noreturn]] void fail(const std::string& what) const { fail_at_byte(source_.name, at_, what); }
 
  private:
@@ -82,7 +85,11 @@ class BinaryBody {
 
 class TextBody {
  public:
-  TextBody(const Source& source, const Header& header) : text_(source, header.body_offset, header.body_line) {}
+  TextBody(const Source& source, const Header& header) : text_(source, header.body_offset, header.body_line) {
+    const std::uint64_t most = source.bytes.size();  // none takes less than a byte, so more will not be read
+    for (const Element& element : header.elements)
+      if (!element.properties.empty()) records_left_ += std::min(element.count, most);
+  }
 
   double number(Type) {
     text_.skip_space();
@@ -103,9 +110,27 @@ class TextBody {
     fail("the header promises " + std::to_string(element.count) + " times " + in_quotes(element.name) +
          ", more than the file has room for");
   }
+  /// Numbers that the header does not tell of are passed over to the line's end, where as many lines follow as records.
+  void end_record() {
+    if (records_left_ > 0) --records_left_;
+    text_.skip_blanks();
+    if (text_.at_line_end()) return;
+    if (!record_a_line_) record_a_line_ = records_left_ <= text_lines_below();
+    if (*record_a_line_) text_.skip_line();
+  }
   [[noreturn]] void fail(const std::string& what) const { text_.fail(what); }
 
  private:
+  /// Lines with something on them, behind this one.
+  std::uint64_t text_lines_below() const {
+    TextScanner ahead = text_;
+    std::uint64_t lines = 0;
+    for (ahead.skip_line(), ahead.skip_space(); !ahead.at_end(); ahead.skip_line(), ahead.skip_space()) ++lines;
+    return lines;
+  }
+
+  std::uint64_t records_left_ = 0;     ///< Of all elements.
+  std::optional<bool> record_a_line_;  ///< Known once a line does not end with its record.
   TextScanner text_;
 };
 
@@ -173,6 +198,7 @@ void read_vertices(Body& body, const Element& element, [[maybe_unused]] VertexDe
       if (details.texcoords) sink.add_texcoord({static_cast<float>(record.u), static_cast<float>(record.v)});
       if (details.normals) sink.add_normal(to_float(record.normal));
     }
+    body.end_record();
   }
 }
 
@@ -195,6 +221,7 @@ void read_faces(Body& body, const Element& element, Sink& sink) {
       }
       polygon.finish();
     }
+    body.end_record();
   }
 }
 
@@ -217,6 +244,7 @@ void read_strips(Body& body, const Element& element, Sink& sink) {
         }
       }
     }
+    body.end_record();
   }
 }
 
@@ -235,6 +263,7 @@ void read_body(Body body, const Header& header, Sink& sink) {
     } else {
       for (std::uint64_t i = 0; i < element.count; ++i) {
         for (const Property& property : element.properties) skip_property(body, property);
+        body.end_record();
       }
     }
   }

@@ -74,9 +74,7 @@ std::string_view TetScanner::bytes(std::size_t count, const char* what) {
 }
 
 std::int64_t TetScanner::integer(const char* what) {
-  std::string_view digits = word();
-  const std::string_view found = digits;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
+  const std::string_view found = word(), digits = without_plus(found);
   std::int64_t value = 0;
   const char* end = digits.data() + digits.size();
   const auto result = std::from_chars(digits.data(), end, value);

@@ -65,6 +65,9 @@ class TextScanner {
     if (at_ != end_) take_line_end();
   }
 
+  /// The caller has seen these, none of them a line's end.
+  void skip_characters(std::size_t count) { at_ += count; }
+
   bool take(char c) {
     if (!at(c)) return false;
     ++at_;
