@@ -30,17 +30,19 @@ using Corners = Places[4];
 
 #if HWY_HAVE_SCALABLE || HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE Places load_places(const Place* places, const std::uint32_t* at) {
+template <class P>
+HWY_INLINE Places load_places(const P* places, const std::uint32_t* at) {
   const Lanes d;
-  alignas(64) std::array<Place, kPlaceBlock> copy;
+  alignas(64) std::array<P, kPlaceBlock> copy;
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) copy[i] = places[at[i]];
   Places p;
   hn::LoadInterleaved4(d, &copy[0].x, p.x, p.y, p.z, p.inverse_mass);
   return p;
 }
-HWY_INLINE void store_places(const Places& p, Place* places, const std::uint32_t* at) {
+template <class P>
+HWY_INLINE void store_places(const Places& p, P* places, const std::uint32_t* at) {
   const Lanes d;
-  alignas(64) std::array<Place, kPlaceBlock> copy;
+  alignas(64) std::array<P, kPlaceBlock> copy;
   hn::StoreInterleaved4(p.x, p.y, p.z, p.inverse_mass, d, &copy[0].x);
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) places[at[i]] = copy[i];
 }
@@ -64,8 +66,8 @@ HWY_INLINE void transpose(Floats& a, Floats& b, Floats& c, Floats& e) {
 using Four = hn::FixedTag<float, 4>;
 
 /// A row of every fourth place, one in each block.
-template <class D>
-HWY_INLINE hn::Vec<D> load_rows([[maybe_unused]] D d, const Place* places, const std::uint32_t* at) {
+template <class D, class P>
+HWY_INLINE hn::Vec<D> load_rows([[maybe_unused]] D d, const P* places, const std::uint32_t* at) {
   if constexpr (hn::MaxLanes(D()) == 4) {
     return hn::Load(Four(), &places[at[0]].x);
   } else {
@@ -73,8 +75,8 @@ HWY_INLINE hn::Vec<D> load_rows([[maybe_unused]] D d, const Place* places, const
     return hn::Combine(d, load_rows(half, places, at + hn::MaxLanes(half)), load_rows(half, places, at));
   }
 }
-template <class D>
-HWY_INLINE void store_rows([[maybe_unused]] D d, hn::Vec<D> rows, Place* places, const std::uint32_t* at) {
+template <class D, class P>
+HWY_INLINE void store_rows([[maybe_unused]] D d, hn::Vec<D> rows, P* places, const std::uint32_t* at) {
   if constexpr (hn::MaxLanes(D()) == 4) {
     hn::Store(rows, Four(), &places[at[0]].x);
   } else {
@@ -85,14 +87,16 @@ HWY_INLINE void store_rows([[maybe_unused]] D d, hn::Vec<D> rows, Place* places,
 }
 
 /// The places at[0], at[1], ... one a lane.
-HWY_INLINE Places load_places(const Place* places, const std::uint32_t* at) {
+template <class P>
+HWY_INLINE Places load_places(const P* places, const std::uint32_t* at) {
   const Lanes d;
   Places p{load_rows(d, places, at), load_rows(d, places, at + 1), load_rows(d, places, at + 2),
            load_rows(d, places, at + 3)};
   transpose(p.x, p.y, p.z, p.inverse_mass);
   return p;
 }
-HWY_INLINE void store_places(Places p, Place* places, const std::uint32_t* at) {
+template <class P>
+HWY_INLINE void store_places(Places p, P* places, const std::uint32_t* at) {
   const Lanes d;
   transpose(p.x, p.y, p.z, p.inverse_mass);
   store_rows(d, p.x, places, at);

@@ -43,12 +43,26 @@ HWY_INLINE Vector gradient_row(Floats a, Floats b, Floats c, const Vector* g) {
   };
   return {entry(g[0].x, g[1].x, g[2].x), entry(g[0].y, g[1].y, g[2].y), entry(g[0].z, g[1].z, g[2].z)};
 }
-HWY_INLINE Matrix deformation_gradient(const Corners& p, const Vector* g) {
-  const auto edge = [&](int i) {
-    return Vector{hn::Sub(p[i].x, p[0].x), hn::Sub(p[i].y, p[0].y), hn::Sub(p[i].z, p[0].z)};
-  };
-  const Vector a = edge(1), b = edge(2), c = edge(3);
+HWY_INLINE Vector edge_of(const Corners& p, int i) {
+  return {hn::Sub(p[i].x, p[0].x), hn::Sub(p[i].y, p[0].y), hn::Sub(p[i].z, p[0].z)};
+}
+HWY_INLINE Matrix gradient_of(const Vector& a, const Vector& b, const Vector& c, const Vector* g) {
   return {{gradient_row(a.x, b.x, c.x, g), gradient_row(a.y, b.y, c.y, g), gradient_row(a.z, b.z, c.z, g)}};
+}
+
+HWY_INLINE Matrix gradient_of(const Corners& p, const Vector* g) {
+  return gradient_of(edge_of(p, 1), edge_of(p, 2), edge_of(p, 3), g);
+}
+HWY_INLINE Vector plus(const Vector& a, const Vector& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Matrix plus(const Matrix& a, const Matrix& b) {
+  return {{plus(a.rows[0], b.rows[0]), plus(a.rows[1], b.rows[1]), plus(a.rows[2], b.rows[2])}};
+}
+/// Of places and what they lack.
+HWY_INLINE Matrix gradient_of(const Corners& p, const Corners& more, const Vector* g) {
+  const auto edge = [&](int i) { return plus(edge_of(p, i), edge_of(more, i)); };
+  return gradient_of(edge(1), edge(2), edge(3), g);
 }
 
 struct Quaternion {
@@ -122,11 +136,6 @@ HWY_INLINE void relax_volume(const Matrix& f, const Vector* g, Floats compliance
   }
 }
 
-/// Strain of a tet: F - R and det F - 1.
-struct Strain {
-  Matrix shape;
-  Floats volume;
-};
 HWY_INLINE Matrix minus(const Matrix& a, const Matrix& b) {
   return {{minus(a.rows[0], b.rows[0]), minus(a.rows[1], b.rows[1]), minus(a.rows[2], b.rows[2])}};
 }
@@ -136,16 +145,14 @@ HWY_INLINE Matrix scaled(const Matrix& m, Floats s) {
   };
   return {{row(0), row(1), row(2)}};
 }
-HWY_INLINE Strain strain_of(const Matrix& f, const Matrix& r) {
-  return {minus(f, r), hn::Sub(dot(f.rows[0], cross(f.rows[1], f.rows[2])), set(1))};
-}
 
-/// The places of a tet's corners, one tet a lane.
-HWY_INLINE void load_corners(const Place* places, const TetBatch& batch, std::size_t lane, Corners& p) {
+/// The places of a tet's corners, or offsets from there, one tet a lane.
+template <class P>
+HWY_INLINE void load_corners(const P* places, const TetBatch& batch, std::size_t lane, Corners& p) {
   for (int i = 0; i < 4; ++i) p[i] = load_places(places, batch.corners[i] + lane);
 }
 
-template <bool kDamped>
+template <bool kDamped, bool kExact>
 HWY_INLINE void relax_lanes(const TetBatch& batch, TetRotations& rotations, const Substep& substep, std::size_t lane) {
   const Lanes d;
   const Vector g[3] = {load_vector(batch.gradients, lane), load_vector(batch.gradients + 3, lane),
@@ -153,42 +160,51 @@ HWY_INLINE void relax_lanes(const TetBatch& batch, TetRotations& rotations, cons
   TetLanes* q = rotations.q;
   const Quaternion before{hn::Load(d, q[0] + lane), hn::Load(d, q[1] + lane), hn::Load(d, q[2] + lane),
                           hn::Load(d, q[3] + lane)};
-  Corners p;
+  Corners p, moves;
   load_corners(substep.places, batch, lane, p);
-  const Matrix f = deformation_gradient(p, g);
-  const Quaternion turned = turned_towards(before, f);
-  Matrix e = minus(f, to_matrix(turned));
+  load_corners(substep.moves, batch, lane, moves);
+  const auto gradient_at_start = [&] {
+    if constexpr (!kExact) return gradient_of(p, g);
+    Corners remainders;
+    load_corners(substep.remainders, batch, lane, remainders);
+    return gradient_of(p, remainders, g);
+  };
+  // F where the substep began and what has changed since stay apart as long as there is something to subtract.
+  const Matrix start = gradient_at_start(), change = gradient_of(moves, g);
+  const Quaternion turned = turned_towards(before, plus(start, change));
+  Matrix e = plus(minus(start, to_matrix(turned)), change);
   Floats wanted = hn::Zero(d);
   if constexpr (kDamped) {
-    Corners start;
-    load_corners(substep.start, batch, lane, start);
-    const Strain strain = strain_of(deformation_gradient(start, g), to_matrix(before));
     const Floats damped = hn::Mul(set(substep.damped), hn::Load(d, batch.damping + lane));
-    e = minus(e, scaled(strain.shape, damped));
-    wanted = hn::Mul(strain.volume, damped);
+    e = minus(e, scaled(minus(start, to_matrix(before)), damped));
+    wanted = hn::Mul(hn::Sub(dot(start.rows[0], cross(start.rows[1], start.rows[2])), set(1)), damped);
   }
-  relax_shape(e, batch, lane, p);
-  relax_volume(deformation_gradient(p, g), g, hn::Load(d, batch.volume_compliance + lane), wanted, p);
-  for (int i = 0; i < 4; ++i) store_places(p[i], substep.places, batch.corners[i] + lane);
+  relax_shape(e, batch, lane, moves);
+  relax_volume(plus(start, gradient_of(moves, g)), g, hn::Load(d, batch.volume_compliance + lane), wanted, moves);
+  for (int i = 0; i < 4; ++i) store_places(moves[i], substep.moves, batch.corners[i] + lane);
   hn::Store(turned.x, d, q[0] + lane);
   hn::Store(turned.y, d, q[1] + lane);
   hn::Store(turned.z, d, q[2] + lane);
   hn::Store(turned.w, d, q[3] + lane);
 }
 
-template <bool kDamped>
+template <bool kDamped, bool kExact>
 HWY_INLINE void relax_batches(std::span<const TetBatch> batches, std::span<TetRotations> rotations,
                               const Substep& substep) {
   for (std::size_t b = 0; b < batches.size(); ++b)
     for (std::size_t lane = 0; lane < kTetLanes; lane += hn::Lanes(Lanes()))
-      relax_lanes<kDamped>(batches[b], rotations[b], substep, lane);
+      relax_lanes<kDamped, kExact>(batches[b], rotations[b], substep, lane);
 }
 
 void relax_tets(std::span<const TetBatch> batches, std::span<TetRotations> rotations, const Substep& substep) {
-  if (substep.damped > 0)
-    relax_batches<true>(batches, rotations, substep);
+  if (substep.damped > 0 && substep.remainders != nullptr)
+    relax_batches<true, true>(batches, rotations, substep);
+  else if (substep.damped > 0)
+    relax_batches<true, false>(batches, rotations, substep);
+  else if (substep.remainders != nullptr)
+    relax_batches<false, true>(batches, rotations, substep);
   else
-    relax_batches<false>(batches, rotations, substep);
+    relax_batches<false, false>(batches, rotations, substep);
 }
 
 }  // namespace tetsoup::kernel::HWY_NAMESPACE

@@ -28,8 +28,9 @@ struct alignas(64) TetRotations {
 };
 
 struct Substep {
-  Place* places;
-  const Place* start;  ///< Where the substep began.
+  const Place* places;       ///< Where the substep began, and
+  const Offset* remainders;  ///< what these floats lack; none where that is too little to count, which is faster.
+  Offset* moves;             ///< From there, in this substep.
   /// damping_time / (damping_time + h): tets relax to this share of the strain that was there at the start, and their
   /// constants are 1 + damping_time / h times as stiff [Kelvin and Voigt].
   float damped = 0;

@@ -31,34 +31,55 @@ HWY_INLINE void for_lanes(std::size_t count, const Body& body) {
   for (std::size_t i = 0; i < count; i += hn::Lanes(Lanes())) body(i);
 }
 
-void predict(std::span<Place> places, std::span<Place> start, std::span<Motion> motions, const Vec3& kick, float h) {
+/// a + b, and what that lacks in `lost` [Knuth].
+HWY_INLINE Floats sum_of(Floats a, Floats b, Floats& lost) {
+  const Floats sum = hn::Add(a, b), added = hn::Sub(sum, a);
+  lost = hn::Add(hn::Sub(a, hn::Sub(sum, added)), hn::Sub(b, added));
+  return sum;
+}
+
+/// Places and remainders from i on.
+HWY_INLINE Columns arrive_at(const Movers& m, std::size_t i) {
+  Columns p = load_block(&m.places[i].x), r = load_block(&m.remainders[i].x);
+  const Columns u = load_block(&m.moves[i].x);
+  p.x = sum_of(p.x, hn::Add(u.x, r.x), r.x);
+  p.y = sum_of(p.y, hn::Add(u.y, r.y), r.y);
+  p.z = sum_of(p.z, hn::Add(u.z, r.z), r.z);
+  store_block(p, &m.places[i].x);
+  store_block(r, &m.remainders[i].x);
+  return p;
+}
+
+void arrive(const Movers& m) {
+  for_lanes(m.places.size(), [&](std::size_t i) {
+    const Floats none = hn::Zero(Lanes());
+    store_block({none, none, none, arrive_at(m, i).w}, &m.moves[i].x);
+  });
+}
+
+void predict(const Movers& m, const Vec3& kick, float h) {
   const Floats kx = set(kick.x), ky = set(kick.y), kz = set(kick.z), step = set(h);
-  for_lanes(places.size(), [&](std::size_t i) {
-    Columns p = load_block(&places[i].x), v = load_block(&motions[i].x);
-    store_block(p, &start[i].x);
+  for_lanes(m.places.size(), [&](std::size_t i) {
+    const Columns p = arrive_at(m, i);
+    Columns v = load_block(&m.motions[i].x);
     const auto held = hn::Eq(p.w, set(0));
     v.x = hn::IfThenZeroElse(held, hn::Add(v.x, kx));
     v.y = hn::IfThenZeroElse(held, hn::Add(v.y, ky));
     v.z = hn::IfThenZeroElse(held, hn::Add(v.z, kz));
-    store_block(v, &motions[i].x);
-    p.x = hn::Add(p.x, hn::Mul(step, v.x));
-    p.y = hn::Add(p.y, hn::Mul(step, v.y));
-    p.z = hn::Add(p.z, hn::Mul(step, v.z));
-    store_block(p, &places[i].x);
+    store_block(v, &m.motions[i].x);
+    store_block({hn::Mul(step, v.x), hn::Mul(step, v.y), hn::Mul(step, v.z), p.w}, &m.moves[i].x);
   });
 }
 
-std::size_t hold_back(std::span<Place> places, std::span<const Place> start, std::span<const Motion> motions,
-                      float most, float h) {
+std::size_t hold_back(std::span<Offset> moves, std::span<const Motion> motions, float most, float h) {
   const Lanes d;
   const Floats step = set(h), farthest = set(most);
   std::size_t count = 0;
-  for_lanes(places.size(), [&](std::size_t i) {
-    Columns p = load_block(&places[i].x);
-    const Columns from = load_block(&start[i].x), v = load_block(&motions[i].x);
-    const Floats px = hn::Add(from.x, hn::Mul(step, v.x)), py = hn::Add(from.y, hn::Mul(step, v.y)),
-                 pz = hn::Add(from.z, hn::Mul(step, v.z));
-    const Floats x = hn::Sub(p.x, px), y = hn::Sub(p.y, py), z = hn::Sub(p.z, pz);
+  for_lanes(moves.size(), [&](std::size_t i) {
+    Columns u = load_block(&moves[i].x);
+    const Columns v = load_block(&motions[i].x);
+    const Floats px = hn::Mul(step, v.x), py = hn::Mul(step, v.y), pz = hn::Mul(step, v.z);
+    const Floats x = hn::Sub(u.x, px), y = hn::Sub(u.y, py), z = hn::Sub(u.z, pz);
     const Floats square = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
     const auto near = hn::Le(square, hn::Mul(farthest, farthest));  // false where it is no number
     if (hn::AllTrue(d, near)) return;
@@ -70,10 +91,10 @@ std::size_t hold_back(std::span<Place> places, std::span<const Place> start, std
       const Floats back = hn::Add(predicted, hn::IfThenElseZero(known, hn::Mul(scale, off)));
       return hn::IfThenElse(near, at, back);
     };
-    p.x = held(p.x, px, x);
-    p.y = held(p.y, py, y);
-    p.z = held(p.z, pz, z);
-    store_block(p, &places[i].x);
+    u.x = held(u.x, px, x);
+    u.y = held(u.y, py, y);
+    u.z = held(u.z, pz, z);
+    store_block(u, &moves[i].x);
   });
   return count;
 }
@@ -98,8 +119,7 @@ HWY_INLINE void add_inertia(Floats mass, const Columns& r, Floats* sums) {
   for (int i = 0; i < 10; ++i) sums[i] = hn::Add(sums[i], terms[i]);
 }
 
-MotionSums sum_motion(std::span<const Place> places, std::span<const Place> start, std::span<const Motion> motions,
-                      const Vec3& centre, float h) {
+MotionSums sum_motion(const Movers& m, const Vec3& centre, float h) {
   const Lanes d;
   const Floats step = set(h);
   MotionSums total;
@@ -107,14 +127,13 @@ MotionSums sum_motion(std::span<const Place> places, std::span<const Place> star
   for (std::size_t lane = 0; lane < kPlaceBlock; lane += hn::Lanes(d)) {
     Floats sums[MotionSums::kCount];
     for (Floats& s : sums) s = hn::Zero(d);
-    for (std::size_t i = lane; i < places.size(); i += kPlaceBlock) {
-      const Columns p = load_block(&places[i].x), v = load_block(&motions[i].x);
-      Columns r = load_block(&start[i].x);
-      const Floats ux = hn::Sub(p.x, r.x), uy = hn::Sub(p.y, r.y), uz = hn::Sub(p.z, r.z);
+    for (std::size_t i = lane; i < m.places.size(); i += kPlaceBlock) {
+      const Columns u = load_block(&m.moves[i].x), v = load_block(&m.motions[i].x);
+      Columns r = load_block(&m.places[i].x);
       r = {hn::Sub(r.x, set(centre.x)), hn::Sub(r.y, set(centre.y)), hn::Sub(r.z, set(centre.z)), r.w};
       add_inertia(v.w, r, sums);
-      add_moments(v.w, r, hn::Sub(hn::Mul(step, v.x), ux), hn::Sub(hn::Mul(step, v.y), uy),
-                  hn::Sub(hn::Mul(step, v.z), uz), sums + MotionSums::Dx);
+      add_moments(v.w, r, hn::Sub(hn::Mul(step, v.x), u.x), hn::Sub(hn::Mul(step, v.y), u.y),
+                  hn::Sub(hn::Mul(step, v.z), u.z), sums + MotionSums::Dx);
     }
     alignas(64) std::array<float, kPlaceBlock> lanes;
     for (int s = 0; s < MotionSums::kCount; ++s) {
@@ -135,22 +154,21 @@ HWY_INLINE Columns rigid(const RigidDisplacement& m, const Columns& r) {
           entry(m.t.z, m.turn.x, r.y, m.turn.y, r.x), r.w};
 }
 
-void correct_motion(std::span<Place> places, std::span<const Place> start, std::span<Motion> motions,
-                    const Vec3& centre, const RigidDisplacement& correction, float h) {
+void correct_motion(const Movers& m, const Vec3& centre, const RigidDisplacement& correction, float h) {
   const Floats step = set(h);
-  for_lanes(places.size(), [&](std::size_t i) {
-    const Columns p = load_block(&places[i].x), from = load_block(&start[i].x);
-    const Columns add = rigid(correction, {hn::Sub(from.x, set(centre.x)), hn::Sub(from.y, set(centre.y)),
-                                           hn::Sub(from.z, set(centre.z)), from.w});
-    const auto held = hn::Eq(p.w, set(0));
-    const auto corrected = [&](Floats to, Floats at, Floats more) {
-      return hn::IfThenZeroElse(held, hn::Add(hn::Sub(to, at), more));
+  for_lanes(m.places.size(), [&](std::size_t i) {
+    const Columns at = load_block(&m.places[i].x), u = load_block(&m.moves[i].x), v = load_block(&m.motions[i].x);
+    const Columns add = rigid(
+        correction, {hn::Sub(at.x, set(centre.x)), hn::Sub(at.y, set(centre.y)), hn::Sub(at.z, set(centre.z)), at.w});
+    const auto held = hn::Eq(at.w, set(0));
+    const auto change = [&](Floats to, Floats velocity, Floats more) {
+      return hn::IfThenZeroElse(held, hn::Add(hn::Sub(to, hn::Mul(step, velocity)), more));
     };
-    const Floats ux = corrected(p.x, from.x, add.x), uy = corrected(p.y, from.y, add.y),
-                 uz = corrected(p.z, from.z, add.z);
-    const Floats mass = load_block(&motions[i].x).w;
-    store_block({hn::Div(ux, step), hn::Div(uy, step), hn::Div(uz, step), mass}, &motions[i].x);
-    store_block({hn::Add(from.x, ux), hn::Add(from.y, uy), hn::Add(from.z, uz), p.w}, &places[i].x);
+    const Floats x = change(u.x, v.x, add.x), y = change(u.y, v.y, add.y), z = change(u.z, v.z, add.z);
+    store_block({hn::Add(hn::Mul(step, v.x), x), hn::Add(hn::Mul(step, v.y), y), hn::Add(hn::Mul(step, v.z), z), at.w},
+                &m.moves[i].x);
+    store_block({hn::Add(v.x, hn::Div(x, step)), hn::Add(v.y, hn::Div(y, step)), hn::Add(v.z, hn::Div(z, step)), v.w},
+                &m.motions[i].x);
   });
 }
 
@@ -160,28 +178,30 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tetsoup::kernel {
 
+HWY_EXPORT(arrive);
 HWY_EXPORT(predict);
 HWY_EXPORT(hold_back);
 HWY_EXPORT(sum_motion);
 HWY_EXPORT(correct_motion);
 
-void predict(std::span<Place> places, std::span<Place> start, std::span<Motion> motions, const Vec3& kick, float h) {
-  HWY_DYNAMIC_DISPATCH(predict)(places, start, motions, kick, h);
+void arrive(const Movers& movers) {
+  HWY_DYNAMIC_DISPATCH(arrive)(movers);
 }
 
-std::size_t hold_back(std::span<Place> places, std::span<const Place> start, std::span<const Motion> motions,
-                      float most, float h) {
-  return HWY_DYNAMIC_DISPATCH(hold_back)(places, start, motions, most, h);
+void predict(const Movers& movers, const Vec3& kick, float h) {
+  HWY_DYNAMIC_DISPATCH(predict)(movers, kick, h);
 }
 
-MotionSums sum_motion(std::span<const Place> places, std::span<const Place> start, std::span<const Motion> motions,
-                      const Vec3& centre, float h) {
-  return HWY_DYNAMIC_DISPATCH(sum_motion)(places, start, motions, centre, h);
+std::size_t hold_back(std::span<Offset> moves, std::span<const Motion> motions, float most, float h) {
+  return HWY_DYNAMIC_DISPATCH(hold_back)(moves, motions, most, h);
 }
 
-void correct_motion(std::span<Place> places, std::span<const Place> start, std::span<Motion> motions,
-                    const Vec3& centre, const RigidDisplacement& correction, float h) {
-  HWY_DYNAMIC_DISPATCH(correct_motion)(places, start, motions, centre, correction, h);
+MotionSums sum_motion(const Movers& movers, const Vec3& centre, float h) {
+  return HWY_DYNAMIC_DISPATCH(sum_motion)(movers, centre, h);
+}
+
+void correct_motion(const Movers& movers, const Vec3& centre, const RigidDisplacement& correction, float h) {
+  HWY_DYNAMIC_DISPATCH(correct_motion)(movers, centre, correction, h);
 }
 
 }  // namespace tetsoup::kernel

@@ -76,12 +76,16 @@ void add_part(World& world, std::size_t which, std::size_t surface, const Pose& 
   part.rotations.assign(rest.batches.size(), turned);
   const std::size_t end = part.begin + rest.padded_count;
   world.places.resize(end);
+  world.remainders.resize(end);
+  world.moves.resize(end);
   world.motions.resize(end);
   world.owners.resize(end, static_cast<std::uint32_t>(world.parts.size()));
   for (std::size_t v = 0; v < rest.masses.size(); ++v) {
-    const Vec3 p = to_float(rotation.turned(rest.piece.places[v]) + pose.translate);
+    const Vec3d at = rotation.turned(rest.piece.places[v]) + pose.translate;
+    const Vec3 p = to_float(at), r = to_float(at - to_double(p));
     const Vec3 m = to_float(pose.velocity + cross(pose.spin, rotation.turned(rest.piece.places[v] - centre)));
     world.places[part.begin + v] = {p.x, p.y, p.z, static_cast<float>(1 / rest.masses[v])};
+    world.remainders[part.begin + v] = {r.x, r.y, r.z, 0};
     world.motions[part.begin + v] = {m.x, m.y, m.z, static_cast<float>(rest.masses[v])};
     world.bodies.back().slots[rest.piece.vertices[v]] = static_cast<std::uint32_t>(part.begin + v);
   }
@@ -139,6 +143,8 @@ class Addition {
     shorten(world_.bodies, bodies_);
     shorten(world_.parts, parts_);
     shorten(world_.places, slots_);
+    shorten(world_.remainders, slots_);
+    shorten(world_.moves, slots_);
     shorten(world_.motions, slots_);
     shorten(world_.owners, slots_);
     world_.report = report_;
@@ -201,8 +207,6 @@ void add_bodies(World& world, const TetMesh& mesh, const SimMaterial& material, 
     }
     add_body(world, mesh, poses[i], poses[i].scale * material.elastic.metres_per_unit, *m, first_rest, first_surface);
   }
-  world.start.insert(world.start.end(), world.places.begin() + static_cast<std::ptrdiff_t>(world.start.size()),
-                     world.places.end());
   addition.keep();
 }
 

@@ -36,11 +36,12 @@ struct EdgeContact {
   float slack = 0;  ///< Depth that is left alone.
 };
 
-/// A vertex at an obstacle: dot(normal, p) stays above offset.
+/// A vertex at an obstacle, which is `gap` away where the vertex is at `from`: gap + dot(normal, p - from) stays above
+/// 0.
 struct ObstacleContact {
   std::uint32_t vertex = 0;
-  Vec3 normal;
-  float offset = 0;
+  Vec3 normal, from;
+  float gap = 0;
   float friction = 0;
 };
 

@@ -29,7 +29,7 @@ std::optional<Stretch> stretch_in(const World& world, const Part& part, std::uin
                                   const Vec3d& b) {
   TetCorners corners;
   const Tet& tet = world.rest_of(part).piece.tets[t];
-  for (std::size_t i = 0; i < 4; ++i) corners[i] = to_double(to_vec(world.places[part.begin + tet[i]]));
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = world.place(part.begin + tet[i]);
   const double six_volumes = 6 * signed_volume(corners);
   if (!(six_volumes > 0)) return {};
   Stretch s;

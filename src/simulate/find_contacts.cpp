@@ -83,8 +83,7 @@ class Search {
     const Vec3d at = to_double(place(slot));
     const auto clearance = distance_from(obstacle, at);
     if (!clearance || clearance->distance > static_cast<double>(pairs_.ahead[p])) return {};
-    const double offset = dot(clearance->normal, at) - clearance->distance;
-    return ObstacleContact{slot, to_float(clearance->normal), static_cast<float>(offset),
+    return ObstacleContact{slot, to_float(clearance->normal), place(slot), static_cast<float>(clearance->distance),
                            static_cast<float>(std::sqrt(obstacle.friction * rest(p).material.friction))};
   }
 
@@ -185,12 +184,12 @@ class Search {
     TetCorners corners;
     for (std::size_t i = 0; i < 4; ++i) {
       if (owner.begin + tet[i] == vertex) return {};
-      corners[i] = to_double(place(owner.begin + tet[i]));
+      corners[i] = world_.place(owner.begin + tet[i]);
     }
     const double six_volumes = 6 * signed_volume(corners);
     if (!(six_volumes > 0)) return {};
     const auto ahead = static_cast<double>(task.other.ahead);
-    const Vec3d at = to_double(place(vertex));
+    const Vec3d at = world_.place(vertex);
     Hit hit{vertex, task.part, t, 1, {}};
     for (std::size_t i = 0; i < 4; ++i) {
       // Most tets are left at their first or second face, so nothing is divided before.

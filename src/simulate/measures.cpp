@@ -10,16 +10,13 @@ namespace {
 
 using Matrix = std::array<Vec3d, 3>;  ///< Rows.
 
-Vec3d place_of(const kernel::Place& p) {
-  return {p.x, p.y, p.z};
-}
 Vec3d velocity_of(const kernel::Motion& m) {
   return {m.x, m.y, m.z};
 }
 
 TetCorners corners_in(const World& world, const Part& part, const Tet& tet) {
   TetCorners p;
-  for (std::size_t i = 0; i < 4; ++i) p[i] = place_of(world.places[part.begin + tet[i]]);
+  for (std::size_t i = 0; i < 4; ++i) p[i] = world.place(part.begin + tet[i]);
   return p;
 }
 
@@ -66,11 +63,11 @@ Energy measure_energy(const World& world) {
     const Rest& rest = world.rest_of(part);
     energy.elastic += world.options.solver == Solver::Implicit
                           ? elastic_energy(world, part)
-                          : potential_energy(world.nets[part.rest], world.slice(world.places, part));
+                          : potential_energy(world.nets[part.rest], world.places_of(part));
     for (std::size_t v = 0; v < rest.masses.size(); ++v) {
       if (rest.held[v] != 0) continue;
       energy.kinetic += rest.masses[v] * squared_length(velocity_of(world.motions[part.begin + v])) / 2;
-      energy.gravity -= rest.masses[v] * dot(world.options.gravity, place_of(world.places[part.begin + v]));
+      energy.gravity -= rest.masses[v] * dot(world.options.gravity, world.place(part.begin + v));
     }
   }
   return energy;
@@ -84,7 +81,7 @@ Momentum measure_momentum(const World& world, std::size_t first_part, std::size_
     for (std::size_t v = 0; v < rest.masses.size(); ++v) {
       const Vec3d p = velocity_of(world.motions[part.begin + v]) * rest.masses[v];
       momentum.linear += p;
-      momentum.angular += cross(place_of(world.places[part.begin + v]), p);
+      momentum.angular += cross(world.place(part.begin + v), p);
     }
   }
   return momentum;
@@ -103,6 +100,8 @@ std::uint64_t hash_state(const World& world) {
   for (const Part& part : world.parts) {
     for (const kernel::Place& p : world.slice(world.places, part))
       for (const float v : {p.x, p.y, p.z}) hash.add(bits_of(v));
+    for (const kernel::Offset& r : world.slice(world.remainders, part))
+      for (const float v : {r.x, r.y, r.z}) hash.add(bits_of(v));
     for (const kernel::Motion& m : world.slice(world.motions, part))
       for (const float v : {m.x, m.y, m.z}) hash.add(bits_of(v));
   }

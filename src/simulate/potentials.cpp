@@ -39,9 +39,6 @@ Measure<4> measure(const std::array<Vec3d, 4>& p) {
   return {dot(a, g1), {(g1 + g2 + g3) * -1, g1, g2, g3}};
 }
 
-Vec3d place_of(const kernel::Place& p) {
-  return {p.x, p.y, p.z};
-}
 Vec3d velocity_of(const kernel::Motion& m) {
   return {m.x, m.y, m.z};
 }
@@ -55,11 +52,10 @@ Measure<N> measure_at(const Potential<N>& potential, const At& at) {
 
 /// F_i = -(k C + k_d sum over j of dC/dp_j v_j) dC/dp_i [THMG04 eq. 7].
 template <std::size_t N>
-void add_forces_of(const std::vector<Potential<N>>& potentials, double damping_time,
-                   std::span<const kernel::Place> places, std::span<const kernel::Motion> motions,
-                   std::vector<Vec3d>& forces) {
+void add_forces_of(const std::vector<Potential<N>>& potentials, double damping_time, std::span<const Vec3d> places,
+                   std::span<const kernel::Motion> motions, std::vector<Vec3d>& forces) {
   for (const Potential<N>& potential : potentials) {
-    const Measure<N> m = measure_at(potential, [&](std::uint32_t v) { return place_of(places[v]); });
+    const Measure<N> m = measure_at(potential, [&](std::uint32_t v) { return places[v]; });
     double rate = 0;
     for (std::size_t i = 0; i < N; ++i) rate += dot(m.gradient[i], velocity_of(motions[potential.corners[i]]));
     const double pull =
@@ -69,11 +65,10 @@ void add_forces_of(const std::vector<Potential<N>>& potentials, double damping_t
 }
 
 template <std::size_t N>
-double energy_of(const std::vector<Potential<N>>& potentials, std::span<const kernel::Place> places) {
+double energy_of(const std::vector<Potential<N>>& potentials, std::span<const Vec3d> places) {
   double sum = 0;
   for (const Potential<N>& potential : potentials) {
-    const double change =
-        measure_at(potential, [&](std::uint32_t v) { return place_of(places[v]); }).value / potential.rest - 1;
+    const double change = measure_at(potential, [&](std::uint32_t v) { return places[v]; }).value / potential.rest - 1;
     sum += potential.stiffness * change * change / 2;
   }
   return sum;
@@ -139,7 +134,7 @@ SpringNet make_spring_net(const Rest& rest, const PotentialOptions& options) {
   return net;
 }
 
-std::size_t add_forces(const SpringNet& net, const Rest& rest, std::span<const kernel::Place> places,
+std::size_t add_forces(const SpringNet& net, const Rest& rest, std::span<const Vec3d> places,
                        std::span<kernel::Motion> motions, double kick, double most) {
   std::vector<Vec3d> forces(rest.masses.size());
   add_forces_of(net.edges, rest.material.damping_time, places, motions, forces);
@@ -147,7 +142,7 @@ std::size_t add_forces(const SpringNet& net, const Rest& rest, std::span<const k
   add_forces_of(net.tets, rest.material.damping_time, places, motions, forces);
   std::size_t clamped = 0;
   for (std::size_t v = 0; v < forces.size(); ++v) {
-    Vec3d change = forces[v] * (kick * static_cast<double>(places[v].inverse_mass));
+    Vec3d change = forces[v] * (kick * rest.inverse_mass(v));
     const double speed = length(change);
     if (speed > most) {
       change = change * (most / speed);
@@ -159,7 +154,7 @@ std::size_t add_forces(const SpringNet& net, const Rest& rest, std::span<const k
   return clamped;
 }
 
-double potential_energy(const SpringNet& net, std::span<const kernel::Place> places) {
+double potential_energy(const SpringNet& net, std::span<const Vec3d> places) {
   return energy_of(net.edges, places) + energy_of(net.triangles, places) + energy_of(net.tets, places);
 }
 

@@ -30,10 +30,10 @@ SpringNet make_spring_net(const Rest& rest, const PotentialOptions& options);
 
 /// Velocities change by the forces over `kick` seconds; not by more than `most`.
 /// @return  Vertices that were held back to it.
-std::size_t add_forces(const SpringNet& net, const Rest& rest, std::span<const kernel::Place> places,
+std::size_t add_forces(const SpringNet& net, const Rest& rest, std::span<const Vec3d> places,
                        std::span<kernel::Motion> motions, double kick, double most);
 
 /// Energy of the net, J.
-double potential_energy(const SpringNet& net, std::span<const kernel::Place> places);
+double potential_energy(const SpringNet& net, std::span<const Vec3d> places);
 
 }  // namespace tetsoup::simulate

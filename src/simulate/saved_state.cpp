@@ -15,7 +15,7 @@ namespace tetsoup::simulate {
 namespace {
 
 /// Of the layout below, and of what it belongs to.
-constexpr std::uint64_t kVersion = 0x32'6574'6174'7374;  // "tstate2"
+constexpr std::uint64_t kVersion = 0x33'6574'6174'7374;  // "tstate3"
 
 /// Over words of eight bytes and what is left.
 std::uint64_t hash_of(std::span<const std::byte> bytes) {
@@ -86,6 +86,7 @@ template <class Archive, class AnyWorld>
 void visit(Archive& archive, AnyWorld& world) {
   archive.value(world.time);
   archive.list(world.places);
+  archive.list(world.remainders);
   archive.list(world.motions);
   archive.list(world.springs);
   archive.list(world.contacts.between);
@@ -101,6 +102,7 @@ void visit(Archive& archive, AnyWorld& world) {
 struct Snapshot {
   double time = 0;
   std::vector<kernel::Place> places;
+  std::vector<kernel::Offset> remainders;
   std::vector<kernel::Motion> motions;
   std::vector<Spring> springs;
   ContactSet contacts;
@@ -116,11 +118,20 @@ bool are_within(std::initializer_list<float> values, float lo, float hi) {
   return std::all_of(values.begin(), values.end(), [&](float v) { return v >= lo && v <= hi; });
 }
 
+bool are_within(const Vec3d& p) {
+  const auto is_within = [](double v) { return std::abs(v) <= static_cast<double>(kFarthest); };
+  return is_within(p.x) && is_within(p.y) && is_within(p.z);
+}
+
 bool fits_vertices(const World& world, const Snapshot& s) {
-  if (s.places.size() != world.places.size() || s.motions.size() != world.motions.size()) return false;
+  if (s.places.size() != world.places.size() || s.motions.size() != world.motions.size() ||
+      s.remainders.size() != world.remainders.size())
+    return false;
   for (std::size_t i = 0; i < s.places.size(); ++i) {
     const kernel::Place& p = s.places[i];
     const kernel::Motion& m = s.motions[i];
+    const kernel::Offset& r = s.remainders[i];
+    if (!are_within({r.x, r.y, r.z}, -kFarthest, kFarthest) || r.inverse_mass != 0) return false;
     if (!are_within({p.x, p.y, p.z, m.x, m.y, m.z}, -kFarthest, kFarthest)) return false;
     if (p.inverse_mass != world.places[i].inverse_mass || m.mass != world.motions[i].mass) return false;
   }
@@ -130,9 +141,8 @@ bool fits_vertices(const World& world, const Snapshot& s) {
 bool fits_springs(const World& world, const Snapshot& s) {
   return std::equal(s.springs.begin(), s.springs.end(), world.springs.begin(), world.springs.end(),
                     [](const Spring& a, const Spring& own) {
-                      return a.slot == own.slot &&
-                             are_within({a.target.x, a.target.y, a.target.z}, -kFarthest, kFarthest) &&
-                             a.stiffness >= 0 && a.stiffness <= kMaxSpring;
+                      return a.slot == own.slot && are_within(a.target) && a.stiffness >= 0 &&
+                             a.stiffness <= kMaxSpring;
                     });
 }
 
@@ -185,6 +195,7 @@ bool fits(const World& world, const Snapshot& s) {
 void adopt(World& world, Snapshot&& s) {
   world.time = s.time;
   world.places = std::move(s.places);
+  world.remainders = std::move(s.remainders);
   world.motions = std::move(s.motions);
   world.springs = std::move(s.springs);
   world.contacts.between = std::move(s.contacts.between);

@@ -90,13 +90,13 @@ std::size_t Simulation::add_spring(const BodyVertex& vertex, const Vec3d& target
   require(slot != kNoSlot, "vertex", vertex.vertex, "one that a simulated tet has");
   check_point(target, "target", kMaxCoordinate);
   require(stiffness > 0 && stiffness <= kMaxSpring, "stiffness", stiffness, "above 0 and at most 1e12 N/m");
-  state_->world.springs.push_back({slot, to_float(target), stiffness});
+  state_->world.springs.push_back({slot, target, stiffness});
   return state_->world.springs.size() - 1;
 }
 
 void Simulation::move_spring(std::size_t spring, const Vec3d& target) {
   check_point(target, "target", kMaxCoordinate);
-  state_->spring(spring).target = to_float(target);
+  state_->spring(spring).target = target;
 }
 
 void Simulation::remove_spring(std::size_t spring) {
@@ -116,8 +116,10 @@ void Simulation::step(double dt, const Progress& progress) {
   try {
     watch.enter_part(0, 0);
     for (int i = 0; i < substeps; ++i) {
-      if (i % interval == 0)
+      if (i % interval == 0) {
+        arrive(world);
         find_contacts(world, h * std::min(interval, substeps - i), i == 0 ? Edges::Find : Edges::Keep, watch);
+      }
       move_freely(world, h);
       solve_springs(world, h);
       solve_contacts(world, h);
@@ -130,6 +132,7 @@ void Simulation::step(double dt, const Progress& progress) {
   }
   world.time += done == substeps ? dt : done * h;
   world.report.substeps = done;
+  arrive(world);
   publish(world);
   watch.throw_if_stopped();
 }
@@ -159,6 +162,7 @@ void Simulation::set_positions(std::size_t body, std::span<const Vec3> positions
     if (slots[v] == kNoSlot) continue;
     kernel::Place& place = world.places[slots[v]];
     place = {positions[v].x, positions[v].y, positions[v].z, place.inverse_mass};
+    world.remainders[slots[v]] = {};
   }
   publish(world, world.bodies[body]);
 }

@@ -35,20 +35,29 @@ V cross(const V& a, const V& b) {
 class Movers {
  public:
   Movers(World& world, double h)
-      : places_(world.places), start_(world.start), motions_(world.motions), rate_(static_cast<float>(1 / h)) {}
+      : world_(world), moves_(world.moves), motions_(world.motions), rate_(static_cast<float>(1 / h)) {}
 
-  V start(std::uint32_t v) const { return {start_[v].x, start_[v].y, start_[v].z}; }
-  V place(std::uint32_t v) const { return {places_[v].x, places_[v].y, places_[v].z}; }
-  V displacement(std::uint32_t v) const { return place(v) - start(v); }
-  float inverse_mass(std::uint32_t v) const { return places_[v].inverse_mass; }
+  /// Where it was when the substep began, seen from the float of another vertex's place, so that it is exact.
+  V start(std::uint32_t v, std::uint32_t from) const {
+    const kernel::Place &p = world_.places[v], &f = world_.places[from];
+    const kernel::Offset& r = world_.remainders[v];
+    return V{p.x - f.x, p.y - f.y, p.z - f.z} + V{r.x, r.y, r.z};
+  }
+  V start(std::uint32_t v, const Vec3& from) const {
+    const kernel::Place& p = world_.places[v];
+    const kernel::Offset& r = world_.remainders[v];
+    return V{p.x - from.x, p.y - from.y, p.z - from.z} + V{r.x, r.y, r.z};
+  }
+  V displacement(std::uint32_t v) const { return {moves_[v].x, moves_[v].y, moves_[v].z}; }
+  float inverse_mass(std::uint32_t v) const { return world_.places[v].inverse_mass; }
   void move(std::uint32_t v, const V& by) {
-    places_[v].x += by.x, places_[v].y += by.y, places_[v].z += by.z;
+    moves_[v].x += by.x, moves_[v].y += by.y, moves_[v].z += by.z;
     motions_[v].x += by.x * rate_, motions_[v].y += by.y * rate_, motions_[v].z += by.z * rate_;
   }
 
  private:
-  std::vector<kernel::Place>& places_;
-  const std::vector<kernel::Place>& start_;
+  const World& world_;
+  std::vector<kernel::Offset>& moves_;
   std::vector<kernel::Motion>& motions_;
   float rate_;
 };
@@ -82,7 +91,7 @@ struct EdgePoint {
   float along, slack;
 
   V blend(const V& at_a, const V& at_b) const { return at_a * (1 - along) + at_b * along; }
-  V start(const Movers& m) const { return blend(m.start(a), m.start(b)); }
+  V start(const Movers& m, std::uint32_t from) const { return blend(m.start(a, from), m.start(b, from)); }
   V displacement(const Movers& m) const { return blend(m.displacement(a), m.displacement(b)); }
   float inverse_mass(const Movers& m) const {
     return m.inverse_mass(a) * (1 - along) * (1 - along) + m.inverse_mass(b) * along * along;
@@ -94,12 +103,13 @@ struct EdgePoint {
 };
 
 bool solve(const Contact& c, const EdgePoint& point, const Push& push, Movers& m) {
-  const V a = m.start(c.corners[0]), b = m.start(c.corners[1]), d = m.start(c.corners[2]);
+  const std::uint32_t from = c.corners[0];
+  const V a = m.start(from, from), b = m.start(c.corners[1], from), d = m.start(c.corners[2], from);
   const V n = cross(b - a, d - a);
   const float size = std::sqrt(dot(n, n));
   if (!(size > 0)) return false;
   const V normal = n * (1 / size);
-  const V apart = point.start(m) - (a * c.weights[0] + b * c.weights[1] + d * c.weights[2]);
+  const V apart = point.start(m, from) - (a * c.weights[0] + b * c.weights[1] + d * c.weights[2]);
   const float gap = dot(apart, normal);
   if (dot(apart, apart) - gap * gap > c.reach * c.reach) return false;
   V u = point.displacement(m);
@@ -120,7 +130,7 @@ bool solve(const ObstacleContact& c, const Push& push, Movers& m) {
   if (!(m.inverse_mass(c.vertex) > 0)) return false;
   const V normal{c.normal.x, c.normal.y, c.normal.z};
   V correction{};
-  if (!push.correction(m.displacement(c.vertex), normal, dot(normal, m.start(c.vertex)) - c.offset, c.friction,
+  if (!push.correction(m.displacement(c.vertex), normal, c.gap + dot(normal, m.start(c.vertex, c.from)), c.friction,
                        correction))
     return false;
   m.move(c.vertex, correction);
@@ -135,7 +145,8 @@ void solve_springs(World& world, double h) {
     const float w = m.inverse_mass(spring.slot);
     if (!(spring.stiffness > 0) || !(w > 0)) continue;
     const float share = w / (w + static_cast<float>(1 / (spring.stiffness * h * h)));
-    m.move(spring.slot, (V{spring.target.x, spring.target.y, spring.target.z} - m.place(spring.slot)) * share);
+    const Vec3 lacking = to_float(spring.target - world.place(spring.slot));
+    m.move(spring.slot, (V{lacking.x, lacking.y, lacking.z} - m.displacement(spring.slot)) * share);
   }
 }
 
@@ -144,7 +155,8 @@ void solve_attachments(World& world, double h) {
   for (const Attachment& link : world.attachments) {
     const float a = m.inverse_mass(link.a), b = m.inverse_mass(link.b);
     if (!(a + b > 0)) continue;
-    const V apart = m.place(link.b) - m.place(link.a);
+    const Vec3 apart_before = to_float(world.place(link.b) - world.place(link.a));
+    const V apart = V{apart_before.x, apart_before.y, apart_before.z} + m.displacement(link.b) - m.displacement(link.a);
     m.move(link.a, apart * (a / (a + b)));
     m.move(link.b, apart * (-b / (a + b)));
   }

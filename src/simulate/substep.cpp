@@ -13,6 +13,16 @@ namespace {
 
 /// Tets that are worth a task.
 constexpr std::size_t kTaskTets = 1500;
+/// Edges of a free body from the origin within which strain is right to 1e-5 without what the floats of places lack.
+/// Held bodies rest on what is smaller.
+constexpr double kNearEdges = 200;
+
+bool is_near_origin(const Rest& rest, const kernel::Movers& movers) {
+  const kernel::Place& p = movers.places[0];
+  return !rest.is_held() && static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)})) <
+                                kNearEdges * rest.piece.mean_edge;
+}
+
 /// All batches; the runs of a large piece's rounds on all threads.
 void relax(const Rest& rest, Part& part, const kernel::Substep& substep, StageWatch& watch) {
   std::size_t first = 0;  // batch of the round
@@ -33,41 +43,41 @@ void relax(const Rest& rest, Part& part, const kernel::Substep& substep, StageWa
 
 /// What elasticity took from the momenta is given back. Held parts have no momentum of their own.
 void settle_momenta(World& world, Part& part, double h) {
-  const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
-  const auto motions = world.slice(world.motions, part);
+  const kernel::Movers movers = world.movers(part);
   const auto step = static_cast<float>(h);
   // No sound body's vertices are moved by an edge in a substep; those of tets that are nearly flat may be, and far.
   part.clamped +=
-      kernel::hold_back(places, start, motions, static_cast<float>(world.rest_of(part).piece.mean_edge), step);
-  Vec3 centre{start[0].x, start[0].y, start[0].z};
+      kernel::hold_back(movers.moves, movers.motions, static_cast<float>(world.rest_of(part).piece.mean_edge), step);
+  Vec3 centre{movers.places[0].x, movers.places[0].y, movers.places[0].z};
   kernel::RigidDisplacement missing;
   if (!world.rest_of(part).is_held()) {
-    const RigidFit fit = fit_rigid_motion(kernel::sum_motion(places, start, motions, centre, step));
+    const RigidFit fit = fit_rigid_motion(kernel::sum_motion(movers, centre, step));
     centre = to_float(to_double(centre) + fit.centre);
     missing = fit.displacement;
   }
-  kernel::correct_motion(places, start, motions, centre, missing, step);
+  kernel::correct_motion(movers, centre, missing, step);
 }
 
 void move_implicitly(World& world, Part& part, double h, StageWatch& watch) {
   const Vec3 kick = to_float(world.options.gravity * ((part.last_h + h) / 2));
-  const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
-  kernel::predict(places, start, world.slice(world.motions, part), kick, static_cast<float>(h));
+  const kernel::Movers movers = world.movers(part);
+  kernel::predict(movers, kick, static_cast<float>(h));
   const Rest& rest = world.rest_of(part);
+  const kernel::Offset* remainders = is_near_origin(rest, movers) ? nullptr : movers.remainders.data();
   const auto damped = static_cast<float>(share_of(rest.damping_time(h, rest.piece.mean_edge), h));
-  relax(rest, part, {places.data(), start.data(), damped}, watch);
+  relax(rest, part, {movers.places.data(), remainders, movers.moves.data(), damped}, watch);
   settle_momenta(world, part, h);
 }
 
 /// Verlet's scheme: forces where the part is, then velocities, then places [THMG04].
 void move_by_potentials(World& world, Part& part, double h) {
   const Rest& rest = world.rest_of(part);
-  const auto places = world.slice(world.places, part), start = world.slice(world.start, part);
-  const auto motions = world.slice(world.motions, part);
+  const kernel::Movers movers = world.movers(part);
+  kernel::arrive(movers);
   const double kick = (part.last_h + h) / 2;
   const double most = rest.piece.mean_edge / h;
-  part.clamped += add_forces(world.nets[part.rest], rest, places, motions, kick, most);
-  kernel::predict(places, start, motions, to_float(world.options.gravity * kick), static_cast<float>(h));
+  part.clamped += add_forces(world.nets[part.rest], rest, world.places_of(part), movers.motions, kick, most);
+  kernel::predict(movers, to_float(world.options.gravity * kick), static_cast<float>(h));
 }
 
 /// Parts [begin, end) of about kTaskTets each.
@@ -116,6 +126,10 @@ void move_freely(World& world, double h) {
       part.last_h = h;
     }
   });
+}
+
+void arrive(World& world) {
+  for (const Part& part : world.parts) kernel::arrive(world.movers(part));
 }
 
 }  // namespace tetsoup::simulate

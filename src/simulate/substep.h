@@ -11,7 +11,10 @@ int count_substeps(const World& world, double dt);
 /// Brings all that depends on the substep's length up to date.
 void prepare_substeps(World& world, double h);
 
-/// Gravity, elasticity, damping. Afterwards `start` holds where the substep began.
+/// Gravity, elasticity, damping: afterwards places are still where the substep began, and moves lead on from there.
 void move_freely(World& world, double h);
+
+/// Places are where the moves have led.
+void arrive(World& world);
 
 }  // namespace tetsoup::simulate

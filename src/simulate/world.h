@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "base/vec.h"
 #include "kernel/box_tree.h"
 #include "kernel/places.h"
+#include "kernel/rigid_motion.h"
 #include "simulate/contacts.h"
 #include "simulate/obstacles.h"
 #include "simulate/potentials.h"
@@ -38,7 +40,7 @@ struct Body {
 
 struct Spring {
   std::uint32_t slot = 0;
-  Vec3 target;
+  Vec3d target;
   double stiffness = 0;  ///< N/m; 0 once it is removed.
 };
 
@@ -48,7 +50,9 @@ struct Attachment {
 
 struct World {
   SimulationOptions options;
-  std::vector<kernel::Place> places, start;  ///< Now, and at the begin of the substep.
+  std::vector<kernel::Place> places;       ///< At the begin of the substep, and
+  std::vector<kernel::Offset> remainders;  ///< what these floats lack.
+  std::vector<kernel::Offset> moves;       ///< Since then; none between steps.
   std::vector<kernel::Motion> motions;
   std::vector<std::uint32_t> owners;  ///< Part of every slot.
   std::vector<Rest> rests;
@@ -63,6 +67,20 @@ struct World {
   SimulationReport report;
   double time = 0;
 
+  /// At the begin of the substep.
+  Vec3d place(std::size_t slot) const {
+    const kernel::Place& p = places[slot];
+    const kernel::Offset& r = remainders[slot];
+    return Vec3d{p.x, p.y, p.z} + Vec3d{r.x, r.y, r.z};
+  }
+  std::vector<Vec3d> places_of(const Part& part) const {
+    std::vector<Vec3d> all;
+    for (std::size_t v = 0; v < rest_of(part).masses.size(); ++v) all.push_back(place(part.begin + v));
+    return all;
+  }
+  kernel::Movers movers(const Part& part) {
+    return {slice(places, part), slice(remainders, part), slice(moves, part), slice(motions, part)};
+  }
   const Rest& rest_of(const Part& part) const { return rests[part.rest]; }
   template <class T>
   std::span<T> slice(std::vector<T>& all, const Part& part) const {
