@@ -179,9 +179,7 @@ TEST(BudgetOfModels, is_hit_on_every_model) {
       options.kind = kind;
       options.tets = wanted;
       const LatticeMesh lattice = fill(pipeline, options);
-      // Of a railing of thin bars 200 tets are hit within 10 %.
-      EXPECT_NEAR(static_cast<double>(lattice.mesh.tets.size()) / static_cast<double>(wanted), 1,
-                  wanted == 200 ? 0.1 : 0.05)
+      EXPECT_NEAR(static_cast<double>(lattice.mesh.tets.size()) / static_cast<double>(wanted), 1, 0.05)
           << entry.path().filename() << ", " << wanted;
       EXPECT_LE(lattice.report.fills, 16);
     }

@@ -8,6 +8,7 @@
 #include "solid_candidates.h"
 #include "stages.h"
 #include "tetsoup/lattice.h"
+#include "tetsoup/tetsoup.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/samples.h"
 
@@ -53,6 +54,40 @@ TEST(Carve, a_rod_a_tenth_of_a_tet_thick_is_one_string_to_its_ends) {
     double nearest = 1e300;
     for (const Vec3& v : rod.mesh.vertices) nearest = std::min(nearest, length(to_double(v) - tip));
     EXPECT_LT(nearest, rod.report.mean_edge);
+  }
+}
+
+/// A bar with three sides from `from` to `to`, whose corners are `radius` from its middle.
+TriangleSoup make_spar(const Vec3d& from, const Vec3d& to, double radius) {
+  const Vec3d along = to - from;
+  Vec3d u = cross(along, {0, 0, 1}), v = cross(along, u);
+  u = u * (radius / length(u));
+  v = v * (radius / length(v));
+  TriangleSoup spar;
+  for (const Vec3d& end : {from, to})
+    for (const double angle : {0.0, 2.0944, 4.1888})
+      spar.vertices.push_back(to_float(end + u * std::cos(angle) + v * std::sin(angle)));
+  spar.triangles = {{0, 2, 1}, {3, 4, 5}};
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const std::uint32_t j = (i + 1) % 3;
+    spar.triangles.push_back({i, j, 3 + i});
+    spar.triangles.push_back({j, 3 + j, 3 + i});
+  }
+  return spar;
+}
+
+TEST(Carve, a_bar_of_a_voxel_that_sticks_out_of_a_box_is_one_piece_with_it) {
+  struct Case {
+    Vec3d tip;
+    double radius;
+  };
+  const TriangleSoup box = test::make_box({-1, -1, -1}, {1, 1, 1});
+  // Its voxels are dashes.
+  for (const auto& [tip, radius] : {Case{{5, 2.3, 1.1}, 0.02}, {{4, 0.7, 0.9}, 0.03}, {{4, 0.7, 0.9}, 0.02}}) {
+    MeshOptions options;
+    options.lattice.tets = 2000;
+    const TetMesh mesh = mesh_soup(test::joined(box, make_spar({0, 0, 0.2}, tip, radius)), options);
+    EXPECT_EQ(measure_quality(mesh).components, 1U) << tip.x << ", " << radius;
   }
 }
 

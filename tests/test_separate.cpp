@@ -21,7 +21,7 @@ using test::make_solid;
 Separated separate(Candidates& candidates, const BitGrid& inside, double rho_min = 0.5) {
   const Progress nobody;
   StageWatch watch(nobody, "lattice");
-  return tetsoup::separate(candidates, inside, rho_min, watch);
+  return tetsoup::separate(candidates, inside, VoxelParts(inside, watch), rho_min, watch);
 }
 
 /// Distance to a circle of radius `major` around z, less `minor`.

@@ -28,6 +28,16 @@ inline BitGrid make_bit_grid(const GridFrame& frame) {
   return grid;
 }
 
+/// First voxel of [x, end) whose bit is `value`.
+inline int find_bit(const std::uint64_t* row, int x, int end, bool value) {
+  while (x < end) {
+    const std::uint64_t word = (value ? row[x >> 6] : ~row[x >> 6]) >> (x & 63);
+    if (word != 0) return std::min(end, x + std::countr_zero(word));
+    x = (x | 63) + 1;
+  }
+  return end;
+}
+
 /// Word `w` of the row moved one voxel towards higher x (bit i holds what bit i - 1 held); zero comes in.
 inline std::uint64_t shifted_up(const std::uint64_t* row, std::size_t w) {
   return row[w] << 1 | (w > 0 ? row[w - 1] >> 63 : 0);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "base/bits.h"
 #include "base/vec.h"
 #include "base/whole.h"
+#include "lattice/voxel_parts.h"
 
 namespace tetsoup {
 namespace {
@@ -30,6 +32,28 @@ void draw_triangle(BitGrid& grid, const std::array<Vec3d, 3>& p) {
   for (int i = 0; i <= n; ++i)
     for (int j = 0; i + j <= n; ++j)
       set_voxel(grid, p[0] + u * (static_cast<double>(i) / n) + v * (static_cast<double>(j) / n));
+}
+
+/// Adds the parts of the inside that the soup joins with a larger one: a bar of a voxel's thickness is a row of dashes.
+void add_lesser_parts(BitGrid& grid, const BitGrid& inside, const BitGrid& surface, StageWatch& watch) {
+  const VoxelParts parts(inside, watch);
+  if (parts.count() < 2) return;
+  BitGrid both = inside;
+  for (std::size_t w = 0; w < both.words.size(); ++w) both.words[w] |= surface.words[w];
+  const VoxelParts wholes(both, watch);
+  std::map<std::uint32_t, std::size_t> voxels;
+  std::map<std::uint32_t, std::uint32_t> largest, whole_of;
+  parts.visit([&](const VoxelRun& run) { voxels[run.part] += static_cast<std::size_t>(run.end - run.begin); });
+  parts.visit([&](const VoxelRun& run) {
+    const std::uint32_t whole = whole_of[run.part] = wholes.at(run.begin, run.y, run.z);
+    const auto found = largest.try_emplace(whole, run.part).first;
+    if (voxels[run.part] > voxels[found->second]) found->second = run.part;
+  });
+  parts.visit([&](const VoxelRun& run) {
+    if (largest[whole_of[run.part]] == run.part) return;
+    for (int x = run.begin; x < run.end; ++x)
+      grid.words[grid.row(run.y, run.z) + static_cast<std::size_t>(x >> 6)] |= std::uint64_t{1} << (x & 63);
+  });
 }
 
 }  // namespace
@@ -68,6 +92,7 @@ BitGrid body_voxels(const BitGrid& inside, const CleanSoup& soup, StageWatch& wa
   BitGrid bare = make_bit_grid(inside.frame), body = inside;
   const BitRows inside_rows(inside), bare_rows(bare);
   add_surface(bare, [&](int y, int z, std::size_t w) { return ~inside_rows.grown(y, z, w); });
+  add_lesser_parts(bare, inside, surface, watch);
   // With those around, so that what is bare hangs together with the volume beside it.
   add_surface(body, [&](int y, int z, std::size_t w) { return bare_rows.grown(y, z, w); });
   return body;

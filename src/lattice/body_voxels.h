@@ -11,7 +11,8 @@ namespace tetsoup {
 BitGrid soup_voxels(const GridFrame& frame, const CleanSoup& soup, StageWatch& watch);
 
 /// The inside voxels, and those of the soup where it has none beside it: leaves, wires, fins thinner than the grid can
-/// tell. Where the soup bounds a volume nothing is added.
+/// tell; so too beside small parts of the inside that the soup joins with a larger one. Where the soup bounds a volume
+/// nothing is added.
 BitGrid body_voxels(const BitGrid& inside, const CleanSoup& soup, StageWatch& watch);
 
 }  // namespace tetsoup

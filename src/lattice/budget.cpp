@@ -15,6 +15,7 @@ constexpr std::size_t kFew = 200;
 constexpr double kGoodEnough = 0.8;  ///< Of the tolerance: a search ends here.
 constexpr int kTriesAsGiven = 2;     ///< Fills before the frame is shifted,
 constexpr int kTriesUpright = 5;     ///< and before it is turned.
+constexpr int kTriesTurned = 4;      ///< Thereafter between shifts: where the count jumps over what is wanted.
 /// Cells. With no symmetry: shapes with some then lose or gain their tets one by one as the edge changes, not eight at
 /// once.
 constexpr Vec3d kShift{0.31, 0.17, 0.43};
@@ -98,9 +99,10 @@ class Search {
   void tune_after(int tries) {
     const int upright = filler_.has_volume() ? kTriesUpright : kTriesAsGiven;
     const bool turns = !turned_ && tries >= upright;
-    if (tries == kTriesAsGiven) pose_.translate_cells += kShift;
+    const bool shifts = tries == kTriesAsGiven || (turned_ && (tries - upright) % kTriesTurned == 0);
+    if (shifts) pose_.translate_cells += kShift;
     if (turns) pose_.rotate += kTurn;
-    if (turns || tries == kTriesAsGiven) tries_.clear();
+    if (turns || shifts) tries_.clear();
     turned_ = turned_ || turns;
   }
 

@@ -1,6 +1,7 @@
 #include "lattice/copies.h"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 namespace tetsoup {
@@ -14,6 +15,8 @@ constexpr std::uint32_t kLeastVoxels = 6;
 constexpr double kThick = 0.9;
 /// Tets; copies that hang together in smaller numbers, apart from the part whose pieces they hold, go.
 constexpr std::uint32_t kCrumb = 3;
+/// Tets; so few copies of a part that is larger are joined with what is beside them.
+constexpr std::uint32_t kScrap = 12;
 
 }  // namespace
 
@@ -21,9 +24,11 @@ Copies::Copies(const Candidates& candidates, const TetPieces& pieces, const Piec
     : candidates_(candidates),
       pieces_(pieces),
       graph_(graph),
+      keeps_thin_(rho_min <= 0),
       walk_(candidates.mesh, pieces),
       sets_(pieces.size()),
-      worthy_(pieces.size(), 0) {
+      worthy_(pieces.size(), 0),
+      is_scrap_(pieces.size(), 0) {
   find_worthy();
   join_near();
   drop_thin_of_thick(rho_min);
@@ -150,7 +155,60 @@ bool Copies::glue_once() {
       }
     }
   }
-  return !merge_rivals(rejected) && !drop_crumbs();
+  return !merge_rivals(rejected) && !(keeps_thin_ && link_torn()) && !drop_crumbs();
+}
+
+/// The glued copies are to hang together as the body does. Where a piece of one lot touches a piece too small for a
+/// copy, that goes with a copy of its tet; a lot of few copies that the body joins elsewhere is no longer told from the
+/// others around it. True if there were any.
+bool Copies::link_torn() {
+  Unions lots(pieces_.size());
+  for (const Glue& g : glued_) lots.join(g.a, g.b);
+  bool any = false;
+  for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
+    if (!has_copy(p)) continue;
+    for (const std::uint32_t q : graph_.neighbours()[p]) {
+      if (has_copy(q)) continue;
+      const std::vector<std::uint32_t> copies = of(pieces_.tet_of(q));
+      const auto other = std::find_if(copies.begin(), copies.end(), [&](std::uint32_t c) {
+        return pieces_.part(c) == pieces_.part(q) && lots.find(c) != lots.find(set_of(p));
+      });
+      if (other == copies.end()) continue;
+      merge(*other, q);
+      worthy_[set_of(q)] = 1;
+      any = true;
+    }
+  }
+  return any || mark_scraps(lots);
+}
+
+/// True if any is new.
+bool Copies::mark_scraps(Unions& lots) {
+  std::vector<std::uint32_t> sizes(pieces_.size(), 0);
+  std::map<std::uint32_t, std::uint32_t> largest;  // of every part of the body, the largest lot's copies
+  const auto size_of = [&](std::uint32_t piece) -> std::uint32_t& { return sizes[lots.find(set_of(piece))]; };
+  for (std::uint32_t p = 0; p < pieces_.size(); ++p)
+    if (has_copy(p) && set_of(p) == p) ++size_of(p);
+  for (std::uint32_t p = 0; p < pieces_.size(); ++p)
+    if (has_copy(p)) largest[pieces_.part(p)] = std::max(largest[pieces_.part(p)], size_of(p));
+  bool any = false;
+  for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
+    if (!has_copy(p) || is_scrap_[p] || pieces_.part(p) == VoxelParts::kNone) continue;
+    if (size_of(p) > kScrap || size_of(p) == largest[pieces_.part(p)]) continue;
+    is_scrap_[p] = 1;
+    any = true;
+  }
+  for (std::size_t t = 0; t < candidates_.kept.size(); ++t) {
+    if (!candidates_.kept[t] || pieces_.count(t) < 2) continue;
+    for (const std::uint32_t a : of(t))
+      for (const std::uint32_t b : of(t))
+        if (a < b && are_scraps(a, b)) merge(a, b);
+  }
+  return any;
+}
+
+bool Copies::are_scraps(std::uint32_t a, std::uint32_t b) const {
+  return (is_scrap_[a] || is_scrap_[b]) && pieces_.part(a) == pieces_.part(b);
 }
 
 /// A few copies that separation tore off from all others go if their part goes on where no tet is kept: they would hang

@@ -6,6 +6,7 @@
 #include "lattice/candidates.h"
 #include "lattice/densities.h"
 #include "lattice/inside_blocks.h"
+#include "lattice/voxel_parts.h"
 #include "tetsoup/lattice.h"
 
 namespace tetsoup {
@@ -60,7 +61,8 @@ class Filler {
   const GridFrame& grid_;
   const LatticeTable& table_;
   bool has_volume_;
-  BitGrid body_;  ///< What is to be covered.
+  BitGrid body_;      ///< What is to be covered.
+  VoxelParts parts_;  ///< Of the body.
   InsideBlocks blocks_;
   int fills_ = 0;
 };

@@ -97,9 +97,10 @@ double smallest_tet(const TetMesh& mesh, const GridFrame& grid) {
 
 }  // namespace
 
-Separated separate(Candidates& candidates, const BitGrid& inside, double rho_min, StageWatch& watch) {
+Separated separate(Candidates& candidates, const BitGrid& inside, const VoxelParts& parts, double rho_min,
+                   StageWatch& watch) {
   if (smallest_tet(candidates.mesh, inside.frame) < kLeastTet) return {};
-  const TetPieces pieces(candidates, candidates.density, inside, watch);
+  const TetPieces pieces(candidates, inside, parts, watch);
   const std::vector<SharedFace> faces = shared_faces(candidates.mesh);
   const PieceGraph graph(candidates.mesh, faces, pieces, inside, watch);
   Copies copies(candidates, pieces, graph, rho_min);

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "lattice/candidates.h"
+#include "lattice/voxel_parts.h"
 
 namespace tetsoup {
 
@@ -23,6 +24,7 @@ struct Separated {
 ///
 /// Copies stand at the end, as doubled vertices do; a copy's density is its part's share.
 /// Cost: O(tets + rows of voxels in mixed tets); the first half on all threads.
-Separated separate(Candidates& candidates, const BitGrid& inside, double rho_min, StageWatch& watch);
+Separated separate(Candidates& candidates, const BitGrid& inside, const VoxelParts& parts, double rho_min,
+                   StageWatch& watch);
 
 }  // namespace tetsoup

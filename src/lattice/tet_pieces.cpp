@@ -1,9 +1,9 @@
 #include "lattice/tet_pieces.h"
 
 #include <algorithm>
-#include <bit>
 #include <tuple>
 
+#include "base/bits.h"
 #include "base/unions.h"
 #include "base/whole.h"
 
@@ -12,16 +12,6 @@ namespace {
 
 constexpr double kRounding = 1e-6;  ///< Voxels, of a plane.
 constexpr double kParallel = 1e-9;  ///< A unit normal with a smaller x is parallel to the rows.
-
-/// First voxel of [x, end) whose bit is `value`.
-int find_bit(const std::uint64_t* row, int x, int end, bool value) {
-  while (x < end) {
-    const std::uint64_t word = (value ? row[x >> 6] : ~row[x >> 6]) >> (x & 63);
-    if (word != 0) return std::min(end, x + std::countr_zero(word));
-    x = (x | 63) + 1;
-  }
-  return end;
-}
 
 struct Range {
   int begin, end;
@@ -72,7 +62,7 @@ class GrownTet {
 /// Finds the pieces of one tet after the other: runs of voxels along x, joined from row to row.
 class TetPieces::Finder {
  public:
-  explicit Finder(const BitGrid& inside) : inside_(inside) {}
+  Finder(const BitGrid& inside, const VoxelParts& parts) : inside_(inside), parts_(parts) {}
 
   /// `voxels`: those that the tet holds.
   Found find(const TetCorners& corners, double voxels) {
@@ -144,7 +134,9 @@ class TetPieces::Finder {
       // The first of a set stands for it, so it has its name by now.
       const std::size_t root = unions.find(r);
       runs_[r].piece = root == r ? static_cast<std::uint32_t>(found.voxels.size()) : runs_[root].piece;
-      if (root == r) found.voxels.push_back(0);
+      if (root != r) continue;
+      found.voxels.push_back(0);
+      found.parts.push_back(parts_.at(runs_[r].begin, runs_[r].y, runs_[r].z));
     }
   }
   void join_with(std::size_t r, int y, int z, Unions& unions) const {
@@ -153,24 +145,27 @@ class TetPieces::Finder {
   }
 
   const BitGrid& inside_;
+  const VoxelParts& parts_;
   Range x_{}, y_{}, z_{};
   std::vector<Run> runs_;
   std::vector<std::size_t> row_begin_;
 };
 
-TetPieces::TetPieces(const Candidates& candidates, const std::vector<float>& density, const BitGrid& inside,
-                     StageWatch& watch) {
+TetPieces::TetPieces(const Candidates& candidates, const BitGrid& inside, const VoxelParts& parts, StageWatch& watch) {
   constexpr std::int64_t kGrain = 64;  // tets
   const TetMesh& mesh = candidates.mesh;
+  const std::vector<float>& density = candidates.density;
   std::vector<Found> found(mesh.tets.size());
   parallel_for(static_cast<std::int64_t>(mesh.tets.size()), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
-    Finder finder(inside);
+    Finder finder(inside, parts);
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
-      if (density[t] > 0 && density[t] < 1) {
-        const TetCorners corners = corners_in_voxels(mesh, mesh.tets[t], inside.frame);
+      const TetCorners corners = corners_in_voxels(mesh, mesh.tets[t], inside.frame);
+      if (density[t] > 0 && density[t] < 1)
         found[t] = finder.find(corners, static_cast<double>(density[t]) * signed_volume(corners));
-      }
-      if (found[t].voxels.empty() && (density[t] > 0 || candidates.kept[t])) found[t].voxels.push_back(0);
+      if (!found[t].voxels.empty() || (density[t] <= 0 && !candidates.kept[t])) continue;
+      const Vec3d middle = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25 + Vec3d{0.5, 0.5, 0.5};
+      found[t].voxels.push_back(0);
+      found[t].parts.push_back(parts.at(floor_to_int(middle.x), floor_to_int(middle.y), floor_to_int(middle.z)));
     }
   });
   first_.assign(1, 0);
@@ -178,6 +173,7 @@ TetPieces::TetPieces(const Candidates& candidates, const std::vector<float>& den
   for (const Found& f : found) {
     tet_of_.insert(tet_of_.end(), f.voxels.size(), static_cast<std::uint32_t>(first_.size() - 1));
     voxels_.insert(voxels_.end(), f.voxels.begin(), f.voxels.end());
+    parts_.insert(parts_.end(), f.parts.begin(), f.parts.end());
     runs_.insert(runs_.end(), f.runs.begin(), f.runs.end());
     first_.push_back(static_cast<std::uint32_t>(voxels_.size()));
     runs_begin_.push_back(runs_.size());

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/tet_geometry.h"
 #include "lattice/candidates.h"
+#include "lattice/voxel_parts.h"
 
 namespace tetsoup {
 
@@ -17,8 +18,9 @@ class TetPieces {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  /// `density` is the share of each tet that `inside` fills. O(tets + rows of voxels in mixed tets), all threads.
-  TetPieces(const Candidates& candidates, const std::vector<float>& density, const BitGrid& inside, StageWatch& watch);
+  /// The candidates' densities are the shares that `inside` fills, whose parts these are. O(tets + rows of voxels in
+  /// mixed tets), all threads.
+  TetPieces(const Candidates& candidates, const BitGrid& inside, const VoxelParts& parts, StageWatch& watch);
 
   /// The pieces of tet t are first(t), ..., first(t) + count(t) - 1. A kept tet without any voxel has one piece all
   /// the same.
@@ -28,6 +30,8 @@ class TetPieces {
   std::uint32_t tet_of(std::uint32_t piece) const { return tet_of_[piece]; }
   /// Voxels of the piece whose centres the tet holds; 0 where nobody had to count.
   std::uint32_t voxels(std::uint32_t piece) const { return voxels_[piece]; }
+  /// The part of all the voxels that the piece belongs to, or kNone if it has no voxel.
+  std::uint32_t part(std::uint32_t piece) const { return parts_[piece]; }
   /// The piece of the tet that has this inside voxel, or kNone.
   std::uint32_t piece_at(std::size_t tet, int x, int y, int z) const;
 
@@ -39,10 +43,11 @@ class TetPieces {
   struct Found {
     std::vector<Run> runs;
     std::vector<std::uint32_t> voxels;  ///< Of every piece.
+    std::vector<std::uint32_t> parts;   ///< Likewise: which part of all voxels it belongs to.
   };
   class Finder;
 
-  std::vector<std::uint32_t> first_, tet_of_, voxels_;
+  std::vector<std::uint32_t> first_, tet_of_, voxels_, parts_;
   std::vector<std::size_t> runs_begin_;  ///< Of every tet; none where there is one piece at most.
   std::vector<Run> runs_;                ///< By z, y, x.
 };
