@@ -15,8 +15,6 @@ constexpr std::uint32_t kLeastVoxels = 6;
 constexpr double kThick = 0.9;
 /// Tets; copies that hang together in smaller numbers, apart from the part whose pieces they hold, go.
 constexpr std::uint32_t kCrumb = 3;
-/// Tets; so few copies of a part that is larger are joined with what is beside them.
-constexpr std::uint32_t kScrap = 12;
 
 }  // namespace
 
@@ -159,8 +157,8 @@ bool Copies::glue_once() {
 }
 
 /// The glued copies are to hang together as the body does. Where a piece of one lot touches a piece too small for a
-/// copy, that goes with a copy of its tet; a lot of few copies that the body joins elsewhere is no longer told from the
-/// others around it. True if there were any.
+/// copy, that goes with a copy of its tet; a lot beside a larger one of the same body is no longer told from what is
+/// around it. True if there were any.
 bool Copies::link_torn() {
   Unions lots(pieces_.size());
   for (const Glue& g : glued_) lots.join(g.a, g.b);
@@ -193,8 +191,8 @@ bool Copies::mark_scraps(Unions& lots) {
     if (has_copy(p)) largest[pieces_.part(p)] = std::max(largest[pieces_.part(p)], size_of(p));
   bool any = false;
   for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
-    if (!has_copy(p) || is_scrap_[p] || pieces_.part(p) == VoxelParts::kNone) continue;
-    if (size_of(p) > kScrap || size_of(p) == largest[pieces_.part(p)]) continue;
+    if (!has_copy(p) || is_scrap_[p]) continue;
+    if (pieces_.part(p) == VoxelParts::kNone || size_of(p) == largest[pieces_.part(p)]) continue;
     is_scrap_[p] = 1;
     any = true;
   }
