@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/vec.h"
 #include "run_tool.h"
 #include "tetsoup/io.h"
 
@@ -177,6 +178,37 @@ TEST_F(ModelTool, inspect_lists_the_parts) {
     EXPECT_NE(out.find(part), std::string::npos) << out;
   EXPECT_NE(out.find("12  box from (-1, 0, -1) to (1, 0.3, 1)"), std::string::npos) << out;
   EXPECT_EQ(run({"inspect", "cube.obj"}).out.find("part_1"), std::string::npos);
+}
+
+TEST_F(ModelTool, closed_spaces_within_the_mesh_are_written_alone_or_their_lack_is_an_error) {
+  std::string text = read_text(in_folder("cube.obj"));
+  for (const double x : {0.25, 0.75})
+    for (const double y : {0.25, 0.75})
+      for (const double z : {0.25, 0.75})
+        text += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  const int first = 9;  // turned to the space within
+  for (const auto& f : {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    text += "f";
+    for (const int v : f) text += " " + std::to_string(first + v);
+    text += "\n";
+  }
+  write_text(in_folder("room.obj"), text);
+  const Outcome room = run(
+      {"mesh", "room.obj", "--voxels", "48", "--cavities", "keep", "-o", "room.msh", "--cavity-surface", "space.obj"});
+  ASSERT_EQ(room.exit_code, 0) << room.err;
+  const TriangleSoup space = read_soup(in_folder("space.obj"));
+  double volume = 0;
+  for (const Triangle& t : space.triangles)
+    volume +=
+        dot(to_double(space.vertices[t[0]]), cross(to_double(space.vertices[t[1]]), to_double(space.vertices[t[2]])));
+  EXPECT_NEAR(volume / 6, -0.125, 0.02) << "it is turned to the space";
+
+  const Outcome solid = run({"mesh", "cube.obj", "-o", "cube.msh", "--cavity-surface", "none.stl"});
+  EXPECT_EQ(solid.exit_code, 2);
+  EXPECT_NE(solid.err.find("--cavities keep"), std::string::npos) << solid.err;
+  EXPECT_FALSE(fs::exists(in_folder("cube.msh")) || fs::exists(in_folder("none.stl")));
+  const Outcome named = run({"mesh", "cube.obj", "-o", "cube.msh", "--cavity-surface", "space.msh"});
+  EXPECT_NE(named.err.find(".obj, .stl or .ply"), std::string::npos) << named.err;
 }
 
 TEST_F(ModelTool, a_model_in_map_coordinates_is_the_same_there_and_recentred_without_the_offset) {

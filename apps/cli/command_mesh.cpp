@@ -31,6 +31,7 @@ struct MeshCommand {
   std::optional<std::string> json;
   std::optional<std::string> preview;
   std::optional<std::string> page;
+  std::optional<std::string> cavity_surface;
   MeshOptions options;
   TetCount tet_count = TetCount::Given;
   Material material;
@@ -60,11 +61,19 @@ void add_embedding(Outputs& outputs, const std::string& path) {
   outputs.add("--embed", path);
 }
 
+void add_cavity_surface(Outputs& outputs, const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".obj" && extension != ".stl" && extension != ".ply")
+    throw InvalidInput("--cavity-surface " + path + ": the name must end in .obj, .stl or .ply");
+  outputs.add("--cavity-surface", path);
+}
+
 /// Everything about the outputs that can be wrong is found here, before the work starts.
 std::vector<PlannedMesh> check_outputs(const MeshCommand& command) {
   Outputs outputs(command.input);
   std::vector<PlannedMesh> planned = plan_meshes(command.meshes, outputs);
   if (command.model.embed) add_embedding(outputs, *command.model.embed);
+  if (command.cavity_surface) add_cavity_surface(outputs, *command.cavity_surface);
   if (command.preview) outputs.add("--preview", *command.preview, ".png");
   if (command.page) outputs.add("--report", *command.page, ".html");
   if (command.json && *command.json != "-") outputs.add("--json", *command.json);
@@ -104,6 +113,18 @@ RenderMesh read_surface(const MeshCommand& command, const std::vector<PlannedMes
   return surface;
 }
 
+void write_cavities(const std::string& path, MeshRun& run, NewFiles& files) {
+  const TetMesh& mesh = run.model.mesh;
+  const std::vector<Triangle> triangles = cavity_triangles(mesh);
+  if (triangles.empty())
+    throw InvalidInput(
+        "--cavity-surface: no closed space is left in the mesh; --cavities keep leaves all that the model "
+        "has, and more voxels or tets those that are small");
+  files.expect(path);
+  write_surface(path, mesh.vertices, triangles, mesh.origin);
+  run.outputs.push_back(path);
+}
+
 void write_meshes(const MeshCommand& command, const std::vector<PlannedMesh>& planned, MeshRun& run, NewFiles& files) {
   const Stopwatch watch;
   for (const PlannedMesh& mesh : planned) {
@@ -116,6 +137,7 @@ void write_meshes(const MeshCommand& command, const std::vector<PlannedMesh>& pl
     write_embedding(*command.model.embed, run.model.embedding);
     run.outputs.push_back(*command.model.embed);
   }
+  if (command.cavity_surface) write_cavities(*command.cavity_surface, run, files);
   run.seconds.write = watch.seconds();
 }
 
@@ -230,6 +252,11 @@ void add_mesh_command(CLI::App& app) {
   add_lattice_flags(*mesh, command->options.lattice, command->tet_count);
   add_cover_flags(*mesh, command->options.lattice);
   add_topology_flags(*mesh, command->options.lattice.topology);
+  add_flag(
+      *mesh, "--cavity-surface", "FILE", [command](const std::string& text) { command->cavity_surface = text; },
+      "Write the mesh's boundary to closed spaces within it alone, as .obj,\n.stl or .ply: where pressure acts in a "
+      "soft robot")
+      ->group("Reports");
   add_smooth_flags(*mesh, command->options.smooth);
   add_model_flags(*mesh, command->model);
   add_material_flags(*mesh, command->material);

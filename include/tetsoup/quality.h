@@ -59,6 +59,10 @@ std::vector<TetQuality> measure_tets(const TetMesh& mesh);
 /// tet, indices into the mesh's vertices, in the order of the tets. Invalid tets have none.
 std::vector<Triangle> boundary_triangles(const TetMesh& mesh);
 
+/// Those of boundary_triangles() that bound a closed space in the mesh's midst, from which no way leads out: connected
+/// surfaces that turn their back on what they enclose. Pressure on them blows the mesh up.
+std::vector<Triangle> cavity_triangles(const TetMesh& mesh);
+
 /// How far a mesh's boundary lies from a soup.
 struct BoundaryDistance {
   double mean = 0;          ///< Over the boundary's area,

@@ -145,6 +145,9 @@ tetsoup_status tetsoup_pipeline_run(tetsoup_pipeline* pipeline, const char* opti
 tetsoup_status tetsoup_pipeline_vertices(tetsoup_pipeline* pipeline, tetsoup_mesh mesh, tetsoup_floats* vertices);
 tetsoup_status tetsoup_pipeline_tets(tetsoup_pipeline* pipeline, tetsoup_mesh mesh, tetsoup_indices* tets);
 tetsoup_status tetsoup_pipeline_boundary(tetsoup_pipeline* pipeline, tetsoup_mesh mesh, tetsoup_indices* triangles);
+/* Those of the boundary that bound a closed space in the mesh's midst, for pressure; (B, 3), none without such a space.
+ */
+tetsoup_status tetsoup_pipeline_cavities(tetsoup_pipeline* pipeline, tetsoup_mesh mesh, tetsoup_indices* triangles);
 tetsoup_status tetsoup_pipeline_tet_quality(tetsoup_pipeline* pipeline, tetsoup_mesh mesh, tetsoup_measure measure,
                                             tetsoup_floats* values);
 /* The grid, once the distance is there. */

@@ -61,6 +61,10 @@ void bind_meshes(nb::module_& m) {
            [](const TetMesh& self) {
              return owned_rows<std::int32_t, 3>(call_unlocked([&] { return boundary_triangles(self); }));
            })
+      .def("cavity_surface",
+           [](const TetMesh& self) {
+             return owned_rows<std::int32_t, 3>(call_unlocked([&] { return cavity_triangles(self); }));
+           })
       .def("quality", [](const TetMesh& self) { return call_unlocked([&] { return measure_quality(self); }); })
       .def(
           "readiness",

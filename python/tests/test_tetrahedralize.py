@@ -35,6 +35,16 @@ def test_the_surface_is_closed_and_looks_outwards(cube):
     assert np.einsum("ij,ij->i", np.cross(a, b), c).sum() / 6 == pytest.approx(mesh.quality.volume)
 
 
+def test_a_closed_space_in_the_midst_has_a_surface_of_its_own(cube):
+    vertices, faces = (np.asarray(a) for a in cube)
+    both = np.concatenate([vertices, vertices.mean(0) + (vertices - vertices.mean(0)) / 2])
+    room = np.concatenate([faces, faces[:, ::-1] + len(vertices)])
+    mesh = tetsoup.tetrahedralize(both, room, voxels=48, cavities="keep")
+    a, b, c = (mesh.points[mesh.cavity_surface[:, i]].astype(float) for i in range(3))
+    assert np.einsum("ij,ij->i", np.cross(a, b), c).sum() / 6 == pytest.approx(-1 / 8, abs=0.02)
+    assert tetsoup.tetrahedralize(*cube, voxels=32).cavity_surface.shape == (0, 3)
+
+
 def test_any_real_type_any_strides_and_lists_give_the_same_bits(cube):
     vertices, faces = cube
     wanted = tetsoup.tetrahedralize(vertices, faces, voxels=16)

@@ -99,6 +99,16 @@ class TetMesh:
         return self._handle.surface()
 
     @cached_property
+    def cavity_surface(self) -> npt.NDArray[np.int32]:
+        """Those triangles of `surface` that bound a closed space in the mesh's midst, (F, 3) int32: pressure on them blows
+        it up. None without ``cavities="keep"``, or evidence of a hollow.
+
+        Example:
+            >>> numpy.unique(mesh.cavity_surface)      # the vertices that a pump moves
+        """
+        return self._handle.cavity_surface()
+
+    @cached_property
     def quality(self) -> _core.Quality:
         """Volumes, angles (radians), topology; measured at the first access.
 

@@ -73,6 +73,7 @@ struct tetsoup_pipeline {
   tetsoup::MeshOptions options;                              ///< Of the last run.
   tetsoup::Stage done = tetsoup::Stage::Soup;                ///< The last stage that is up to date.
   std::array<std::vector<tetsoup::Triangle>, 2> boundaries;  ///< Of both meshes; made when asked for.
+  std::vector<tetsoup::Triangle> cavities;                   ///< Those asked for last.
   std::vector<float> qualities, slice;                       ///< Behind the last view of each.
 
   /// @throws InvalidInput  if the stage has no result that is up to date.

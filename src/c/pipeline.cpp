@@ -164,6 +164,14 @@ tetsoup_status tetsoup_pipeline_boundary(tetsoup_pipeline* pipeline, tetsoup_mes
   });
 }
 
+tetsoup_status tetsoup_pipeline_cavities(tetsoup_pipeline* pipeline, tetsoup_mesh mesh, tetsoup_indices* triangles) {
+  return c::guarded([&] {
+    tetsoup_pipeline& p = c::given(pipeline, "pipeline");
+    p.cavities = cavity_triangles(mesh_of(p, mesh));
+    c::given(triangles, "triangles") = c::view_of(p.cavities);
+  });
+}
+
 tetsoup_status tetsoup_pipeline_tet_quality(tetsoup_pipeline* pipeline, tetsoup_mesh mesh, tetsoup_measure measure,
                                             tetsoup_floats* values) {
   return c::guarded([&] {

@@ -8,6 +8,7 @@
 #include "base/elementary.h"
 #include "base/tet_faces.h"
 #include "base/tet_geometry.h"
+#include "base/unions.h"
 #include "quality/topology.h"
 
 namespace tetsoup {
@@ -148,6 +149,23 @@ std::vector<TetQuality> measure_tets(const TetMesh& mesh) {
 
 std::vector<Triangle> boundary_triangles(const TetMesh& mesh) {
   return lone_faces(mesh, sorted_faces(mesh));
+}
+
+std::vector<Triangle> cavity_triangles(const TetMesh& mesh) {
+  std::vector<Triangle> triangles = boundary_triangles(mesh);
+  Unions surfaces(mesh.vertices.size());
+  for (const Triangle& t : triangles) {
+    surfaces.join(t[0], t[1]);
+    surfaces.join(t[0], t[2]);
+  }
+  std::vector<double> volume(mesh.vertices.size(), 0);  // six times that, of every surface
+  for (const Triangle& t : triangles) {
+    const Vec3d a = to_double(mesh.vertices[t[0]]), b = to_double(mesh.vertices[t[1]]),
+                c = to_double(mesh.vertices[t[2]]);
+    volume[surfaces.find(t[0])] += dot(a, cross(b, c));
+  }
+  std::erase_if(triangles, [&](const Triangle& t) { return volume[surfaces.find(t[0])] >= 0; });
+  return triangles;
 }
 
 }  // namespace tetsoup

@@ -64,12 +64,14 @@ static void tour_fields(tetsoup_pipeline* pipeline) {
 
 static void tour_mesh(tetsoup_pipeline* pipeline) {
   tetsoup_floats vertices, quality;
-  tetsoup_indices tets, boundary;
+  tetsoup_indices tets, boundary, cavities;
   const char* json = NULL;
   OK(tetsoup_pipeline_vertices(pipeline, TETSOUP_MESH_LATTICE, &vertices));
   OK(tetsoup_pipeline_vertices(pipeline, TETSOUP_MESH_FINAL, &vertices));
   OK(tetsoup_pipeline_tets(pipeline, TETSOUP_MESH_FINAL, &tets));
   OK(tetsoup_pipeline_boundary(pipeline, TETSOUP_MESH_FINAL, &boundary));
+  OK(tetsoup_pipeline_cavities(pipeline, TETSOUP_MESH_FINAL, &cavities));
+  CHECK(cavities.count == 0);
   CHECK(tets.width == 4 && tets.count > 400 && boundary.width == 3 && boundary.count > 100);
   OK(tetsoup_pipeline_tet_quality(pipeline, TETSOUP_MESH_FINAL, TETSOUP_MEAN_RATIO, &quality));
   CHECK(quality.count == tets.count && quality.data[0] > 0 && quality.data[0] <= 1);

@@ -209,6 +209,7 @@ class Caller {
     check(tetsoup_soup_vertices(soup_, maybe(&floats)));
     check(tetsoup_pipeline_vertices(pipeline_, mesh, maybe(&floats)));
     check(tetsoup_pipeline_boundary(pipeline_, mesh, maybe(&indices)));
+    check(tetsoup_pipeline_cavities(pipeline_, mesh, maybe(&indices)));
     check(tetsoup_pipeline_tet_quality(pipeline_, mesh, static_cast<tetsoup_measure>(choices_.below(3)), &floats));
     check(tetsoup_pipeline_slice(pipeline_, static_cast<tetsoup_field>(choices_.below(4)),
                                  static_cast<std::int32_t>(choices_.below(4)),
