@@ -62,12 +62,14 @@ struct PotentialOptions {
 struct SimulationOptions {
   Solver solver = Solver::Implicit;
   Vec3d gravity{0, 0, -9.81};  ///< m/s^2.
-  int substeps = 10;           ///< Of a step, at least; 1..10000. Potentials take more where stability asks for it,
+  /// Of each 1/60 s, at least; 1..10000. They belong to time: bodies move alike at any number of steps a second.
+  /// Potentials take more where stability asks for it,
+  int substeps = 10;
   /// and the implicit solver up to so many where sound would pass more than .7 edges of the mesh within a substep,
   /// since bodies would then be softer than their material; 1..10000. What is below `substeps` counts for nothing.
   int max_substeps = 200;
-  int contact_interval = 5;  ///< Substeps from one search for contacts to the next, >= 1; in proportion where a step
-                             ///< takes more than `substeps`.
+  int contact_interval = 5;  ///< Substeps from one search for contacts to the next, >= 1; in proportion where there are
+                             ///< more than `substeps`. A step begins with a search.
   Contacts contacts = Contacts::All;
   PotentialOptions potentials;
 };
@@ -154,8 +156,9 @@ class Simulation {
   void move_spring(std::size_t spring, const Vec3d& target);
   void remove_spring(std::size_t spring);
 
-  /// Advances time by `dt` seconds, (0, 1]. Stopped by `progress`, asked after every substep, bodies and time stay
-  /// where the last whole substep has left them, and the simulation can go on from there.
+  /// Advances time by `dt` seconds, (0, 1], in equal substeps that are no longer than the options say. Stopped by
+  /// `progress`, asked after every substep, bodies and time stay where the last whole substep has left them, and the
+  /// simulation can go on from there.
   /// @throws InvalidInput  if `dt` is out of range; Cancelled.
   /// Cost: about 10 ns a tet and substep, and 0.1 to 0.4 us a tet for every search for contacts; all threads.
   void step(double dt, const Progress& progress = {});

@@ -108,7 +108,7 @@ class SimulationOptions(TypedDict, total=False):
         "position based and stable at any step; or explicit forces that keep lengths, areas and volumes",
     ]
     gravity: Annotated[Triple, "(x, y, z), m/s^2"]
-    substeps: Annotated[int, "of a step, at least, 1..10000; 'potentials' takes more where its stability asks for it,"]
+    substeps: Annotated[int, "of each 1/60 s, at least, 1..10000; 'potentials' takes more where its stability asks for it,"]
     max_substeps: Annotated[int, "and 'implicit' up to so many where bodies would else be softer than their material"]
     contact_interval: Annotated[int, "of `substeps`, from one search for contacts to the next, >= 1"]
     contacts: Annotated[

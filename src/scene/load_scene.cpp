@@ -30,23 +30,10 @@ auto at_path(const std::string& path, const Action& action) {
   }
 }
 
-bool any_driven(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const SceneBody& body) {
-    return std::any_of(body.pins.begin(), body.pins.end(), is_driven<ScenePin>);
-  });
-}
-
-/// Vertices that are driven move before every step; a frame is then as many steps as it has searches for contacts.
-SimulationOptions simulation_options(const Scene& scene) {
-  SimulationOptions options = scene.simulation;
-  if (any_driven(scene)) options.substeps = std::min(options.substeps, options.contact_interval);
-  return options;
-}
-
 class Loader {
  public:
   Loader(const Scene& scene, const Progress& progress)
-      : progress_(progress), loaded_{scene, {}, {}, {}, {}, Simulation(simulation_options(scene)), {}, 0} {}
+      : progress_(progress), loaded_{scene, {}, {}, {}, {}, Simulation(scene.simulation), {}, 0} {}
 
   LoadedScene load() {
     const Scene& scene = loaded_.scene;

@@ -64,6 +64,7 @@ void release_pins(LoadedScene& loaded, double frame) {
 
 }  // namespace
 
+/// Vertices that are driven move before every step; a frame is then as many steps as it has searches for contacts.
 int steps_of_frame(const LoadedScene& loaded) {
   constexpr double kLongestStep = 1.0 / 60;  // s
   constexpr double kRounding = 1e-9;         // 60 fps make one step

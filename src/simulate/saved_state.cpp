@@ -176,7 +176,7 @@ bool fits_part(const Part& part, const Part& own) {
 bool fits_report(const SimulationReport& report, const SimulationReport& own) {
   return report.tet_count == own.tet_count && report.left_out == own.left_out &&
          report.loose_vertices == own.loose_vertices && report.parts == own.parts && report.substeps >= 0 &&
-         report.substeps <= kMaxSubsteps;
+         report.substeps <= 60 * kMaxSubsteps;
 }
 
 /// Whatever the bytes were: no index leads out of the world, every number is one.

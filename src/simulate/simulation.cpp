@@ -34,6 +34,27 @@ struct Simulation::State {
   }
 };
 
+namespace {
+
+/// When contacts are looked for within a step, in substeps.
+struct ContactTimes {
+  int interval = 1, edges_interval = 1;
+
+  ContactTimes(const World& world, double h) {
+    const auto substeps = [&](double time) {
+      constexpr double kRounding = 1e-9;
+      return std::min(std::ceil(time / h * (1 - kRounding)), 60.0 * kMaxSubsteps);
+    };
+    interval = static_cast<int>(substeps(world.options.contact_interval * longest_substep(world)));
+    // Edges once in 1/60 s, with a search for vertices.
+    edges_interval = interval * static_cast<int>(std::ceil(substeps(kSubstepsTime) / interval));
+  }
+  bool is_due(int substep) const { return substep % interval == 0; }
+  Edges edges_at(int substep) const { return substep % edges_interval == 0 ? Edges::Find : Edges::Keep; }
+};
+
+}  // namespace
+
 Simulation::Simulation(const SimulationOptions& options) : state_(std::make_unique<State>()) {
   check(options);
   state_->world.options = options;
@@ -107,18 +128,17 @@ void Simulation::step(double dt, const Progress& progress) {
   require(dt > 0 && dt <= 1, "dt", dt, "above 0 and at most 1 s");
   World& world = state_->world;
   const int substeps = count_substeps(world, dt);
-  const double h = dt / substeps, longer = static_cast<double>(substeps) / world.options.substeps;
-  const int interval =
-      static_cast<int>(std::ceil(std::min(longer * world.options.contact_interval, double{kMaxSubsteps})));
+  const double h = dt / substeps;
+  const ContactTimes times(world, h);
   prepare_substeps(world, h);
   StageWatch watch(progress, "simulate");
   int done = 0;
   try {
     watch.enter_part(0, 0);
     for (int i = 0; i < substeps; ++i) {
-      if (i % interval == 0) {
+      if (times.is_due(i)) {
         arrive(world);
-        find_contacts(world, h * std::min(interval, substeps - i), i == 0 ? Edges::Find : Edges::Keep, watch);
+        find_contacts(world, h * std::min(times.interval, substeps - i), times.edges_at(i), watch);
       }
       move_freely(world, h);
       solve_springs(world, h);

@@ -96,14 +96,19 @@ std::vector<std::size_t> task_ends(const World& world) {
 }  // namespace
 
 int count_substeps(const World& world, double dt) {
+  constexpr double kRounding = 1e-9;  // ten in 1/60 s
   const bool implicit = world.options.solver == Solver::Implicit;
-  double h = dt / world.options.substeps;
+  double h = longest_substep(world);
   if (implicit)
     for (const Rest& rest : world.rests) h = std::min(h, kMostEdges * rest.wave_time(rest.piece.mean_edge));
   else
     for (const SpringNet& net : world.nets) h = std::min(h, net.stable_time_step);
   const int most = implicit ? std::max(world.options.substeps, world.options.max_substeps) : kMaxSubsteps;
-  return static_cast<int>(std::ceil(std::min(dt / h, static_cast<double>(most))));
+  return static_cast<int>(std::ceil(dt / std::max(h, kSubstepsTime / most) * (1 - kRounding)));
+}
+
+double longest_substep(const World& world) {
+  return kSubstepsTime / world.options.substeps;
 }
 
 void prepare_substeps(World& world, double h) {

@@ -5,7 +5,13 @@
 
 namespace tetsoup::simulate {
 
-/// Substeps that a step of dt takes: what was asked for, or as many as the potentials are stable with.
+/// What SimulationOptions count their substeps in, s. Not the caller's step: bodies would be as stiff as it is short.
+inline constexpr double kSubstepsTime = 1.0 / 60;
+
+/// As the options ask for, s.
+double longest_substep(const World& world);
+
+/// Equal substeps that a step of dt takes: none longer than asked for, or than what stiffness or stability needs.
 int count_substeps(const World& world, double dt);
 
 /// Brings all that depends on the substep's length up to date.
