@@ -180,11 +180,11 @@ void write_page(const MeshCommand& command, MeshRun& run, NewFiles& files) {
   run.outputs.push_back(*command.page);
 }
 
-/// False where a count of tets was searched for and none holds the shape.
-bool mesh_as_asked(const MeshCommand& command, Pipeline& pipeline, ProgressBar& bar) {
-  if (command.tet_count == TetCount::Search) return find_tet_count(pipeline, command.options, bar.callback()).held;
+/// What is to be said of a search for a count of tets, if anything.
+std::string mesh_as_asked(const MeshCommand& command, Pipeline& pipeline, ProgressBar& bar) {
+  if (command.tet_count == TetCount::Search) return find_tet_count(pipeline, command.options, bar.callback()).note();
   pipeline.run(command.options, bar.callback());
-  return true;
+  return {};
 }
 
 void run_mesh(MeshCommand& command) {
@@ -202,7 +202,7 @@ void run_mesh(MeshCommand& command) {
   run.seconds.read = read_watch.seconds();
   Pipeline pipeline = open_pipeline(command.input, soup, bar);
   command.options.memory_limit = memory_limit(command.run);  // what is left once the soup is in memory
-  const bool held = mesh_as_asked(command, pipeline, bar);
+  const std::string count_note = mesh_as_asked(command, pipeline, bar);
   run.options = pipeline.options();
   run.pipeline = &pipeline;
   take_stage_times(run);
@@ -218,9 +218,7 @@ void run_mesh(MeshCommand& command) {
   NewFiles files;
   write_meshes(command, planned, run, files);
   if (seen) run.notes = notes_of({pipeline, run.quality, run.fidelity, run.engine, run.material.metres_per_unit});
-  if (!held)
-    run.notes.push_back(
-        "No count of tets up to 32,000 holds the shape in all that is checked; more voxels (--voxels) may.");
+  if (!count_note.empty()) run.notes.push_back(count_note);
   if (command.preview) draw_preview(*command.preview, command.model.up, run, files);
   bar.clear();
   throw_if_interrupted();

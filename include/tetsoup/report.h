@@ -52,6 +52,8 @@ std::vector<std::string> grid_notes(const CleanSoup& soup, const DistanceOptions
 struct CountSearch {
   std::size_t tets = 0;
   bool held = false;
+  /// What the user should know where none passes; else empty.
+  std::string note() const;
 };
 CountSearch find_tet_count(Pipeline& pipeline, const MeshOptions& options, const Progress& progress = {});
 

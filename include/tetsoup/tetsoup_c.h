@@ -140,6 +140,12 @@ tetsoup_status tetsoup_pipeline_run_until(tetsoup_pipeline* pipeline, tetsoup_st
 tetsoup_status tetsoup_pipeline_run(tetsoup_pipeline* pipeline, const char* options, tetsoup_progress progress,
                                     void* context);
 
+/* All stages with the fewest of 500, 1,000, 2,000 ... 32,000 tets at which the shape holds; `held` is 0 where none of
+ * these does, and the mesh then that of most. Both may be NULL. `options`: as above, without a number or size of tets.
+ */
+tetsoup_status tetsoup_pipeline_find_tets(tetsoup_pipeline* pipeline, const char* options, tetsoup_progress progress,
+                                          void* context, size_t* tets, int32_t* held);
+
 /* Results of stages that are up to date; TETSOUP_INVALID_INPUT where one is not.
  * (V, 3), (T, 4), the boundary (B, 3), and (T, 1). */
 tetsoup_status tetsoup_pipeline_vertices(tetsoup_pipeline* pipeline, tetsoup_mesh mesh, tetsoup_floats* vertices);

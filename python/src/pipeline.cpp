@@ -20,12 +20,23 @@ struct Session {
   Pipeline pipeline;
   MeshOptions options;
   std::optional<Stage> done;  ///< Results up to this stage may be read.
+  std::string count_note;     ///< Of a search for a count of tets.
 
   void run_until(Stage last, const MeshOptions& chosen, nb::handle progress) {
     done.reset();
+    count_note.clear();
     options = chosen;
     call_library(progress, [&](const Progress& watch) { pipeline.run_until(last, chosen, watch); });
     done = last;
+  }
+
+  void find_tet_count(const MeshOptions& chosen, nb::handle progress) {
+    done.reset();
+    count_note = call_library(progress, [&](const Progress& watch) {
+                   return tetsoup::find_tet_count(pipeline, chosen, watch);
+                 }).note();
+    options = pipeline.options();
+    done = Stage::Smooth;
   }
 };
 
@@ -77,7 +88,9 @@ std::vector<std::string> notes(const Session& session, const Fidelity& fidelity)
   const Pipeline& pipeline = after(session, Stage::Smooth);
   return call_unlocked([&] {
     const Quality quality = measure_quality(pipeline.smooth().mesh);
-    return notes_of({.pipeline = pipeline, .quality = quality, .fidelity = fidelity});
+    std::vector<std::string> notes = notes_of({.pipeline = pipeline, .quality = quality, .fidelity = fidelity});
+    if (!session.count_note.empty()) notes.push_back(session.count_note);
+    return notes;
   });
 }
 
@@ -94,8 +107,8 @@ void bind_pipeline(nb::module_& m) {
           "__init__",
           [](Session* self, PointsIn vertices, FacesIn faces, nb::object progress) {
             const TriangleSoup soup = copy_soup(vertices, faces);
-            new (self)
-                Session{call_library(progress, [&](const Progress& watch) { return Pipeline(soup, watch); }), {}, {}};
+            new (self) Session{
+                call_library(progress, [&](const Progress& watch) { return Pipeline(soup, watch); }), {}, {}, {}};
           },
           nb::arg("vertices"), nb::arg("faces"), nb::arg("progress").none())
       .def(
@@ -104,6 +117,12 @@ void bind_pipeline(nb::module_& m) {
             self.run_until(stage_named(stage), read_options(options), progress);
           },
           nb::arg("stage"), nb::arg("options"), nb::arg("progress").none())
+      .def(
+          "find_tet_count",
+          [](Session& self, nb::dict options, nb::object progress) {
+            self.find_tet_count(read_options(options), progress);
+          },
+          nb::arg("options"), nb::arg("progress").none())
       .def("soup", [](const Session& self) { return self.pipeline.soup(); })
       .def("soup_report", [](const Session& self) { return self.pipeline.soup().report; })
       .def("distance", [](const Session& self) { return after(self, Stage::Distance).distance(); })

@@ -89,6 +89,21 @@ def test_a_pipeline_repeats_only_what_changed(torus):
     assert 0.5 < tetsoup.overlap(pipeline.mesh, pipeline.pseudo_volume) <= 1
 
 
+def test_as_many_tets_as_the_shape_needs_are_found(torus):
+    pipeline = tetsoup.Pipeline(*torus)
+    mesh = pipeline.run(voxels=48, tets="auto")
+    count = mesh.report.options["tets"]
+    assert count in (500, 1000, 2000)
+    assert len(mesh.tets) == pytest.approx(count, rel=0.05)
+    assert mesh.points.tobytes() == pipeline.run(voxels=48, tets=count).points.tobytes()
+    blurred = tetsoup.tetrahedralize(*tetsoup.sample("comb"), voxels=6, tets="auto")  # its gaps are half a voxel
+    assert any("No count of tets" in note for note in blurred.report.notes)
+    with pytest.raises(tetsoup.InvalidInput, match="tets"):
+        pipeline.run(tets="many")
+    with pytest.raises(tetsoup.InvalidInput, match="tets"):
+        pipeline.run_until("lattice", tets="auto")
+
+
 def test_results_that_do_not_stand_are_refused(torus):
     pipeline = tetsoup.Pipeline(*torus)
     for read in (

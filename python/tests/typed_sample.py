@@ -19,9 +19,10 @@ def main(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64]) -> flo
     options: tetsoup.LatticeOptions = {"rho_min": 0.3, "lattice": "bcc"}
     pipeline = tetsoup.Pipeline(tetsoup.read(files[0]), progress=tetsoup.tqdm_progress())
     again: tetsoup.TetMesh = pipeline.run(voxels=64, **options)
+    enough: tetsoup.TetMesh = pipeline.run(tets="auto")
     votes: npt.NDArray[np.uint8] = pipeline.pseudo_volume.votes
     lattice, report = tetsoup.fill_lattice(pipeline.pseudo_volume, pipeline.soup, cells=20)
-    parts: int = again.quality.components + report.topology.parts_dropped + len(lattice.tets)
+    parts: int = enough.quality.components + report.topology.parts_dropped + len(lattice.tets)
     seconds: dict[str, float] = again.report.seconds
     surface = tetsoup.read_surface("bunny.obj")
     embedding: tetsoup.Embedding = mesh.embed(surface, max_extrapolation=2, progress=watch)

@@ -207,7 +207,12 @@ class Pipeline:
             tetsoup.Cancelled: if `progress` answers False; finished stages are kept.
         """
         with self._alone() as core:
-            core.run_until("smooth", complete(options), progress)
+            chosen = complete(options)
+            if chosen.get("tets") == "auto":
+                del chosen["tets"]
+                core.find_tet_count(chosen, progress)
+            else:
+                core.run_until("smooth", chosen, progress)
             return TetMesh._wrap(core.mesh(), lambda: _report(core))
 
     @documented(*ALL_GROUPS)

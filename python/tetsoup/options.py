@@ -55,7 +55,10 @@ class PseudoVolumeOptions(TypedDict, total=False):
 class LatticeOptions(TypedDict, total=False):
     """The tets. At most one of `tets`, `mesh_vertices`, `edge`, `cells` and `cell_size`; none: 2,000 tets."""
 
-    tets: Annotated[int | None, "tets wanted, 1..2^27"]
+    tets: Annotated[
+        int | Literal["auto"] | None,
+        "tets wanted, 1..2^27; 'auto': the fewest of 500, 1000, 2000 ... 32000 at which the shape holds",
+    ]
     mesh_vertices: Annotated[int | None, "vertices wanted"]
     edge: Annotated[float | None, "mean edge of the lattice's tets"]
     cells: Annotated[int | None, "cubic cells along the longest axis of the soup's box, 1..1024"]

@@ -29,13 +29,19 @@ const TetMesh& mesh_of(const tetsoup_pipeline& p, const tetsoup_mesh& mesh) {
   return mesh == TETSOUP_MESH_LATTICE ? p.pipeline.lattice().mesh : p.pipeline.smooth().mesh;
 }
 
-/// The stages that a run has finished stand even where it was cancelled; what it began does not.
-void run_until(tetsoup_pipeline& p, Stage last, const char* json, const Progress& progress) {
+/// The options of a new run, which the last one's results do not outlive.
+MeshOptions begin_run(tetsoup_pipeline& p, const char* json) {
   MeshOptions options = parse_mesh_options(c::options_or_none(json));
   options.memory_limit = p.memory_limit;
   p.done = Stage::Soup;
   p.boundaries = {};
   p.options = options;
+  return options;
+}
+
+/// The stages that a run has finished stand even where it was cancelled; what it began does not.
+void run_until(tetsoup_pipeline& p, Stage last, const char* json, const Progress& progress) {
+  const MeshOptions options = begin_run(p, json);
   for (int stage = static_cast<int>(Stage::Distance); stage <= static_cast<int>(last); ++stage) {
     p.pipeline.run_until(static_cast<Stage>(stage), options, progress);
     p.done = static_cast<Stage>(stage);
@@ -143,6 +149,19 @@ tetsoup_status tetsoup_pipeline_run_until(tetsoup_pipeline* pipeline, tetsoup_st
 tetsoup_status tetsoup_pipeline_run(tetsoup_pipeline* pipeline, const char* options, tetsoup_progress progress,
                                     void* context) {
   return tetsoup_pipeline_run_until(pipeline, TETSOUP_STAGE_SMOOTH, options, progress, context);
+}
+
+tetsoup_status tetsoup_pipeline_find_tets(tetsoup_pipeline* pipeline, const char* options, tetsoup_progress progress,
+                                          void* context, size_t* tets, int32_t* held) {
+  return c::guarded([&] {
+    tetsoup_pipeline& p = c::given(pipeline, "pipeline");
+    const MeshOptions wanted = begin_run(p, options);
+    const CountSearch found = find_tet_count(p.pipeline, wanted, c::progress_of(progress, context));
+    p.options = p.pipeline.options();
+    p.done = Stage::Smooth;
+    if (tets) *tets = found.tets;
+    if (held) *held = found.held ? 1 : 0;
+  });
 }
 
 tetsoup_status tetsoup_pipeline_vertices(tetsoup_pipeline* pipeline, tetsoup_mesh mesh, tetsoup_floats* vertices) {

@@ -26,6 +26,11 @@ bool holds(const Pipeline& pipeline) {
 
 }  // namespace
 
+std::string CountSearch::note() const {
+  if (held) return {};
+  return "No count of tets up to 32,000 holds the shape in all that is checked; more voxels (--voxels) may.";
+}
+
 CountSearch find_tet_count(Pipeline& pipeline, const MeshOptions& options, const Progress& progress) {
   MeshOptions tried = options;
   CountSearch found;

@@ -62,6 +62,16 @@ static void tour_fields(tetsoup_pipeline* pipeline) {
   CHECK(slice.data[0] == 0);
 }
 
+static void tour_search(tetsoup_pipeline* pipeline) {
+  tetsoup_indices found;
+  size_t count = 0;
+  int32_t held = -1;
+  OK(tetsoup_pipeline_find_tets(pipeline, "{\"voxels\": 48}", NULL, NULL, &count, &held));
+  OK(tetsoup_pipeline_tets(pipeline, TETSOUP_MESH_FINAL, &found));
+  CHECK(held == 1 && count >= 500 && found.count > count * 9 / 10 && found.count < count * 11 / 10);
+  CHECK(tetsoup_pipeline_find_tets(pipeline, "{\"cells\": 4}", NULL, NULL, NULL, NULL) == TETSOUP_INVALID_INPUT);
+}
+
 static void tour_mesh(tetsoup_pipeline* pipeline) {
   tetsoup_floats vertices, quality;
   tetsoup_indices tets, boundary, cavities;
@@ -207,6 +217,7 @@ int main(int argc, char** argv) {
   OK(tetsoup_pipeline_run(pipeline, "{\"voxels\": 48, \"tets\": 500}", NULL, NULL));
   tour_mesh(pipeline);
   OK(tetsoup_model_create(pipeline, "torus", NULL, NULL, &model));
+  tour_search(pipeline);
   tetsoup_pipeline_destroy(pipeline);
   tour_model(model, argv[1]);
   tour_simulation(model);
