@@ -175,13 +175,18 @@ TEST(ReadGltf, instances_may_not_multiply_without_limit) {
 
 TEST(ReadGltf, what_is_not_supported_says_so) {
   const auto with = [](const std::string& extension) { return glb(kOneNode, mesh(kSquare), kAccessors, extension); };
-  EXPECT_ERROR(with(R"("extensionsRequired":["KHR_draco_mesh_compression"],)"), kGltf,
-               "uses KHR_draco_mesh_compression, which is not supported: export without compression");
-  EXPECT_ERROR(with(R"("extensionsRequired":["EXT_meshopt_compression"],)"), kGltf,
-               "uses EXT_meshopt_compression, which is not supported: export without");
-  EXPECT_ERROR(with(R"("extensionsUsed":["EXT_mesh_gpu_instancing"],)"), kGltf, "EXT_mesh_gpu_instancing");
   EXPECT_EQ(parse_gltf(with(R"("extensionsRequired":["KHR_texture_transform"],)")).triangles, kTriangles);
   EXPECT_ERROR(R"({"asset":{"version":"1.0"}})", kGltf, "only glTF 2 is supported, not 1.0");
+}
+
+TEST(ReadGltf, a_required_extension_is_refused_only_where_it_may_change_geometry) {
+  const std::string required = R"("extensionsRequired":["ACME_shapes","ACME_shine"],)";
+  const std::string shine = R"("materials":[{"extensions":{"ACME_shine":{}}}],)";
+  EXPECT_EQ(parse_gltf(glb(kOneNode, mesh(kSquare), kAccessors, required + shine)).triangles, kTriangles);
+  const std::string shaped = R"({"attributes":{"POSITION":0},"extensions":{"ACME_shapes":{}}})";
+  EXPECT_ERROR(glb(kOneNode, mesh(shaped), kAccessors, required + shine), kGltf,
+               "uses ACME_shapes, which is not supported");
+  EXPECT_EQ(parse_gltf(glb(kOneNode, mesh(shaped))).triangles.size(), 1U);
 }
 
 TEST(ReadGltf, errors_name_the_line_of_text_and_the_byte_of_binary) {

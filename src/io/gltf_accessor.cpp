@@ -64,9 +64,12 @@ class Reader {
     accessor_ = &document.model.accessors[static_cast<std::size_t>(index)];
   }
 
+  std::size_t count() const { return accessor_->count; }
+
   std::vector<double> read(int type) const {
     if (accessor_->type != type) fail(where_, "holds elements of another kind than its use asks for");
-    const std::size_t components = type == TINYGLTF_TYPE_VEC3 ? 3 : type == TINYGLTF_TYPE_VEC2 ? 2 : 1;
+    const auto components =
+        static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
     const std::size_t size = component_size(accessor_->componentType);
     if (size == 0) fail(where_, "has component type " + std::to_string(accessor_->componentType));
     std::vector<double> values = read_dense(components, size);
@@ -78,9 +81,6 @@ class Reader {
   std::vector<double> read_dense(std::size_t components, std::size_t size) const {
     const std::size_t count = accessor_->count;
     if (accessor_->bufferView < 0) {
-      if (document_.uses_draco) {
-        fail(where_, "uses KHR_draco_mesh_compression, which is not supported: export without compression");
-      }
       if (count > document_.file_bytes) fail(where_, "promises more zeros than the file has bytes");
       return std::vector<double>(count * components, 0.0);
     }
@@ -150,6 +150,10 @@ class Reader {
 };
 
 }  // namespace
+
+std::size_t accessor_count(const Document& document, int accessor) {
+  return Reader(document, accessor).count();
+}
 
 std::vector<double> read_accessor(const Document& document, int accessor, int type) {
   return Reader(document, accessor).read(type);

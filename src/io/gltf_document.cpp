@@ -4,11 +4,9 @@
 #include "io/gltf_document.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <map>
-#include <nlohmann/json.hpp>
 
+#include "io/gltf_extensions.h"
 #include "io/load_bytes.h"
 
 namespace tetsoup::readers::gltf {
@@ -114,36 +112,6 @@ void check_version(const Source& source, const json& root) {
   }
 }
 
-std::vector<std::string> strings_of(const json& root, const char* key) {
-  std::vector<std::string> strings;
-  const auto list = root.find(key);
-  if (list == root.end() || !list->is_array()) return strings;
-  for (const json& entry : *list) {
-    if (entry.is_string()) strings.push_back(entry.get<std::string>());
-  }
-  return strings;
-}
-
-/// A required extension either leaves geometry alone or is one we know to read.
-void check_extensions(const Source& source, const json& root) {
-  constexpr std::array<std::string_view, 9> kHarmless = {
-      "KHR_mesh_quantization", "KHR_materials_", "KHR_texture_",   "EXT_texture_",       "KHR_lights_",
-      "MSFT_texture_",         "KHR_xmp",        "KHR_animation_", "KHR_node_visibility"};
-  for (const std::string& extension : strings_of(root, "extensionsRequired")) {
-    const bool harmless = std::any_of(kHarmless.begin(), kHarmless.end(),
-                                      [&](std::string_view prefix) { return extension.starts_with(prefix); });
-    if (harmless) continue;
-    const bool compression = extension.find("compression") != std::string::npos;
-    fail(source.name, "uses " + extension.substr(0, 64) + ", which is not supported" +
-                          (compression ? ": export without compression" : ""));
-  }
-  for (const std::string& extension : strings_of(root, "extensionsUsed")) {
-    if (extension == "EXT_mesh_gpu_instancing") {
-      fail(source.name, "uses " + extension + ", which is not supported: export instances as nodes");
-    }
-  }
-}
-
 /// Resolves all buffers; each external file is read once.
 class BufferLoader {
  public:
@@ -158,6 +126,10 @@ class BufferLoader {
       const std::string where = document_.name + ": buffer " + std::to_string(document_.buffers.size());
       const auto length = buffer.is_object() ? buffer.find("byteLength") : buffer.end();
       if (length == buffer.end() || !length->is_number_unsigned()) fail(where, "'byteLength' is missing or no number");
+      if (is_promise(buffer)) {
+        document_.buffers.emplace_back();
+        continue;
+      }
       const auto bytes = find_bytes(buffer, where);
       if (length->get<std::uint64_t>() > bytes.size()) {
         fail(where, "promises " + std::to_string(length->get<std::uint64_t>()) + " bytes, there are " +
@@ -208,7 +180,7 @@ std::vector<std::string> names_of(json& root, const char* key) {
 /// Geometry only, without the parts of unlimited shape.
 json reduced_to_geometry(json& root) {
   json reduced = json::object();
-  for (const char* key : {"scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"}) {
+  for (const char* key : {"scene", "scenes", "nodes", "skins", "meshes", "accessors", "bufferViews"}) {
     const auto found = root.find(key);
     if (found == root.end()) continue;
     json& part = reduced[key] = std::move(*found);
@@ -270,8 +242,9 @@ Document read_document(const Source& source, const std::optional<std::filesystem
   Document document;
   document.name = source.name;
   document.file_bytes = source.bytes.size();
-  const auto used = strings_of(root, "extensionsUsed");
-  document.uses_draco = std::find(used.begin(), used.end(), "KHR_draco_mesh_compression") != used.end();
+  document.instancing = instancing_of(root);
+  const std::vector<PackedView> views = packed_views(document.name, root);
+  const std::vector<PackedPrimitive> primitives = take_packed_primitives(document.name, root);
   BufferLoader(folder, container.binary, document).load_all(root);
   document.node_names = names_of(root, "nodes");
   document.mesh_names = names_of(root, "meshes");
@@ -279,6 +252,8 @@ Document read_document(const Source& source, const std::optional<std::filesystem
   const json reduced = reduced_to_geometry(root);
   check_object_count(source, reduced, container.text.size());
   load_model(source, reduced, document.model);
+  unpack_views(document, views);
+  unpack_primitives(document, primitives);
   return document;
 }
 

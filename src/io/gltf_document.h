@@ -4,6 +4,7 @@
 #include <tiny_gltf.h>
 
 #include <deque>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,11 +13,16 @@
 
 namespace tetsoup::readers::gltf {
 
+/// Accessors that say where copies of a node's mesh stand (EXT_mesh_gpu_instancing); -1: none.
+struct Instancing {
+  int translation = -1, rotation = -1, scale = -1;
+};
+
 struct Document {
   std::string name;
   std::size_t file_bytes = 0;  ///< External buffers included.
-  tinygltf::Model model;       ///< Scenes, nodes, meshes, accessors, buffer views; nothing else is filled in.
-  bool uses_draco = false;
+  tinygltf::Model model;       ///< Scenes, nodes, skins, meshes, accessors, buffer views; nothing else is filled in.
+  std::map<int, Instancing> instancing;                             ///< Of nodes.
   std::vector<std::string> node_names, mesh_names, material_names;  ///< Empty where there is none.
   std::vector<std::span<const std::byte>> buffers;                  ///< Into the source or into `owned`.
   std::deque<std::vector<std::byte>> owned;
@@ -25,8 +31,10 @@ struct Document {
 /// @param folder  External buffers must lie below it; none: they are refused.
 Document read_document(const Source& source, const std::optional<std::filesystem::path>& folder);
 
-/// All numbers of an accessor, normalised ones as floats, sparse ones put in place; each range checked against the
+/// Elements that an accessor promises, and
+/// all numbers of an accessor, normalised ones as floats, sparse ones put in place; each range checked against the
 /// bytes that are there. `type` is what its numbers must form (TINYGLTF_TYPE_...).
+std::size_t accessor_count(const Document& document, int accessor);
 std::vector<double> read_accessor(const Document& document, int accessor, int type);
 
 /// Bytes of one buffer: a data URI, or a file below `folder`.

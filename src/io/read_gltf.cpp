@@ -1,12 +1,11 @@
-// glTF 2 and GLB: the default scene, each node's mesh moved to where the node puts it. Skins and morph targets are left
-// at rest; points and lines are passed over.
+// glTF 2 and GLB: the default scene, each node's mesh moved to where the node puts it, or where the joints of its skin
+// stand. Morph targets are left at rest; points and lines are passed over.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
-#include "base/vec.h"
-#include "io/gltf_document.h"
+#include "io/gltf_scene.h"
 #include "tetsoup/error.h"
 
 namespace tetsoup::readers {
@@ -14,144 +13,91 @@ namespace {
 
 using gltf::Document;
 
-/// Rows of a 3x4 matrix.
-struct Affine {
-  std::array<std::array<double, 4>, 3> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+using gltf::Instance;
 
-  Vec3d apply(double x, double y, double z) const {
-    const auto row = [&](std::size_t r) { return rows[r][0] * x + rows[r][1] * y + rows[r][2] * z + rows[r][3]; };
-    return {row(0), row(1), row(2)};
-  }
+/// What moves the vertices of one primitive: a node as a whole, or the joints of a skin, each with a share in each
+/// vertex.
+class VertexPlaces {
+ public:
+  explicit VertexPlaces(const Affine& whole) : whole_(whole) {}
 
-  /// The unit normal of what the map makes of a plane with this normal; zero if there is none.
-  Vec3 apply_to_normal(const Vec3d& normal) const {
-    const auto row = [&](std::size_t r) { return Vec3d{rows[r][0], rows[r][1], rows[r][2]}; };
-    const std::array<Vec3d, 3> cofactors{cross(row(1), row(2)), cross(row(2), row(0)), cross(row(0), row(1))};
-    const double sign = dot(row(0), cofactors[0]) < 0 ? -1 : 1;
-    const Vec3d moved{dot(cofactors[0], normal), dot(cofactors[1], normal), dot(cofactors[2], normal)};
-    const double size = length(moved);
-    return size > 0 && std::isfinite(size) ? to_float(moved * (sign / size)) : Vec3{};
-  }
-};
-
-Affine operator*(const Affine& a, const Affine& b) {
-  Affine product;
-  for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      double sum = c == 3 ? a.rows[r][3] : 0;
-      for (std::size_t k = 0; k < 3; ++k) sum += a.rows[r][k] * b.rows[k][c];
-      product.rows[r][c] = sum;
+  /// Takes JOINTS_n and WEIGHTS_n of the primitive, as many as there are.
+  void read_joints(const Document& document, const std::string& where, const tinygltf::Primitive& primitive,
+                   std::size_t vertex_count, const std::vector<Affine>& joints) {
+    joints_ = &joints;
+    const auto read = [&](const std::string& name) {
+      const auto accessor = primitive.attributes.find(name);
+      if (accessor == primitive.attributes.end()) return std::vector<double>();
+      if (gltf::accessor_count(document, accessor->second) != vertex_count)
+        fail(where, name + " has another number of elements than POSITION");
+      return gltf::read_accessor(document, accessor->second, TINYGLTF_TYPE_VEC4);
+    };
+    constexpr int kMostSets = 16;
+    for (int set = 0; set < kMostSets; ++set) {
+      std::vector<double> ids = read("JOINTS_" + std::to_string(set));
+      std::vector<double> shares = read("WEIGHTS_" + std::to_string(set));
+      if (ids.empty() || shares.empty()) return;
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (shares[i] != 0 && !(ids[i] >= 0 && ids[i] < static_cast<double>(joints.size())))
+          fail(where, "a vertex hangs on a joint that its skin does not have");
+      }
+      sets_.push_back({std::move(ids), std::move(shares)});
     }
   }
-  return product;
-}
 
-/// Rotation by a quaternion (x, y, z, w) of any length but zero.
-Affine rotation(const std::vector<double>& q) {
-  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (!(length > 0)) return {};
-  const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
-  return {{{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0},
-            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0},
-            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0}}}};
-}
-
-Affine local_transform(const tinygltf::Node& node) {
-  Affine result;
-  if (node.matrix.size() == 16) {
-    for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t c = 0; c < 4; ++c) result.rows[r][c] = node.matrix[4 * c + r];
+  /// Shares are taken relative to their sum; where that is nothing, the vertex stays with the node.
+  Affine of(std::size_t vertex) const {
+    if (sets_.empty()) return whole_;
+    double sum = 0;
+    for (const Set& set : sets_) {
+      for (std::size_t k = 4 * vertex; k < 4 * vertex + 4; ++k) sum += set.shares[k];
     }
-    return result;
-  }
-  if (node.rotation.size() == 4) result = rotation(node.rotation);
-  for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t c = 0; c < 3 && node.scale.size() == 3; ++c) result.rows[r][c] *= node.scale[c];
-    if (node.translation.size() == 3) result.rows[r][3] = node.translation[r];
-  }
-  return result;
-}
-
-struct Instance {
-  std::size_t mesh;
-  Affine to_world;
-  std::string name;  ///< The node's, or else the mesh's.
-};
-
-/// The nodes a scene starts from; without scenes, those that are nobody's children.
-std::vector<int> roots(const Document& document) {
-  const tinygltf::Model& model = document.model;
-  const auto scene = static_cast<std::size_t>(std::max(model.defaultScene, 0));
-  if (scene < model.scenes.size()) return model.scenes[scene].nodes;
-  if (model.defaultScene >= 0) fail(document.name, "scene " + std::to_string(scene) + " does not exist");
-  std::vector<bool> is_child(model.nodes.size(), false);
-  for (const auto& node : model.nodes) {
-    for (const int child : node.children) {
-      if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
-        is_child[static_cast<std::size_t>(child)] = true;
+    if (!(std::abs(sum) > 0)) return whole_;
+    Affine place{};
+    for (auto& row : place.rows) row.fill(0);
+    for (const Set& set : sets_) {
+      for (std::size_t k = 4 * vertex; k < 4 * vertex + 4; ++k)
+        if (set.shares[k] != 0) place.add((*joints_)[static_cast<std::size_t>(set.ids[k])], set.shares[k] / sum);
     }
+    return place;
   }
-  std::vector<int> result;
-  for (std::size_t i = 0; i < is_child.size(); ++i) {
-    if (!is_child[i]) result.push_back(static_cast<int>(i));
-  }
-  return result;
-}
 
-/// Every node at most once: glTF demands a forest, and a graph with cycles or shared children need not end.
-std::vector<Instance> find_instances(const Document& document) {
-  const tinygltf::Model& model = document.model;
-  std::vector<Instance> instances;
-  if (model.nodes.empty()) {
-    for (std::size_t i = 0; i < model.meshes.size(); ++i) instances.push_back({i, {}, document.mesh_names[i]});
-    return instances;
-  }
-  std::vector<bool> seen(model.nodes.size(), false);
-  std::vector<std::pair<int, Affine>> stack;
-  const auto push = [&](const std::vector<int>& nodes, const Affine& parent) {
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack.emplace_back(*node, parent);
+ private:
+  struct Set {
+    std::vector<double> ids, shares;
   };
-  push(roots(document), {});
-  while (!stack.empty()) {
-    const auto [index, parent] = stack.back();
-    stack.pop_back();
-    const std::string where = document.name + ": node " + std::to_string(index);
-    if (index < 0 || static_cast<std::size_t>(index) >= model.nodes.size()) fail(where, "does not exist");
-    const auto i = static_cast<std::size_t>(index);
-    if (seen[i]) fail(where, "has two parents or is its own ancestor");
-    seen[i] = true;
-    const tinygltf::Node& node = model.nodes[i];
-    const Affine to_world = parent * local_transform(node);
-    if (node.mesh >= 0) {
-      if (static_cast<std::size_t>(node.mesh) >= model.meshes.size()) fail(where, "shows a mesh that does not exist");
-      const auto mesh = static_cast<std::size_t>(node.mesh);
-      const std::string& name = document.node_names[i];
-      instances.push_back({mesh, to_world, name.empty() ? document.mesh_names[mesh] : name});
-    }
-    push(node.children, to_world);
-  }
-  return instances;
-}
+  Affine whole_;
+  const std::vector<Affine>* joints_ = nullptr;
+  std::vector<Set> sets_;
+};
 
 /// Appends the mesh of one instance after another, within limits: instances can multiply a small file at will.
 template <class Sink>
 class SurfaceBuilder {
  public:
   SurfaceBuilder(const Document& document, Sink& sink)
-      : document_(document), most_(kFreeElements + document.file_bytes), sink_(sink) {}
+      : document_(document), skins_(document), most_(kFreeElements + document.file_bytes), sink_(sink) {}
 
   void add(const Instance& instance) {
-    first_of_accessor_.clear();
+    const auto places = gltf::places_within(document_, instance.node);
+    if (!places) return add_at(instance, instance.to_world);
+    check_room(instance_count_, places->size(), "instances");
+    instance_count_ += places->size();
+    for (const Affine& place : *places) add_at(instance, instance.to_world * place);
+  }
+
+ private:
+  void add_at(const Instance& instance, const Affine& to_world) {
+    first_of_vertices_.clear();
     first_of_attribute_.clear();
     if constexpr (Sink::kDetails) sink_.set_object(instance.name);
     const auto& primitives = document_.model.meshes[instance.mesh].primitives;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       where_ = document_.name + ": mesh " + std::to_string(instance.mesh) + ", primitive " + std::to_string(i);
-      add_primitive(primitives[i], instance.to_world);
+      add_primitive(primitives[i], instance.skin, to_world);
     }
   }
 
- private:
   // Vertices, and triangles, that instances may add to what the file itself can hold: 8 million take 0.2 GB.
   static constexpr std::size_t kFreeElements = 8'000'000;
 
@@ -165,23 +111,36 @@ class SurfaceBuilder {
     fail(document_.name, "its instances add up to more than " + std::to_string(most_) + " " + what);
   }
 
-  /// Primitives of a mesh often share their vertices.
-  Range add_vertices(int accessor, const Affine& to_world) {
-    if (const auto known = first_of_accessor_.find(accessor); known != first_of_accessor_.end()) return known->second;
-    const std::vector<double> p = gltf::read_accessor(document_, accessor, TINYGLTF_TYPE_VEC3);
-    const Range added{sink_.vertex_count(), p.size() / 3};
-    check_room(added.first, added.count, "vertices");
-    for (std::size_t i = 0; i < p.size(); i += 3) sink_.add_vertex(to_world.apply(p[i], p[i + 1], p[i + 2]));
-    return first_of_accessor_[accessor] = added;
+  VertexPlaces places_of(const tinygltf::Primitive& primitive, int position, int skin, const Affine& to_world) {
+    VertexPlaces places(to_world);
+    if (skin >= 0 && primitive.attributes.count("JOINTS_0") > 0)
+      places.read_joints(document_, where_, primitive, gltf::accessor_count(document_, position), skins_.of(skin));
+    return places;
   }
 
-  void add_primitive(const tinygltf::Primitive& primitive, const Affine& to_world) {
+  /// Primitives of a mesh often share their vertices.
+  Range add_vertices(const tinygltf::Primitive& primitive, int position, const VertexPlaces& places) {
+    const auto named = [&](const char* name) {
+      const auto accessor = primitive.attributes.find(name);
+      return accessor == primitive.attributes.end() ? -1 : accessor->second;
+    };
+    const std::tuple<int, int, int> key{position, named("JOINTS_0"), named("WEIGHTS_0")};
+    if (const auto known = first_of_vertices_.find(key); known != first_of_vertices_.end()) return known->second;
+    const std::vector<double> p = gltf::read_accessor(document_, position, TINYGLTF_TYPE_VEC3);
+    const Range added{sink_.vertex_count(), p.size() / 3};
+    check_room(added.first, added.count, "vertices");
+    for (std::size_t i = 0; i < p.size(); i += 3) sink_.add_vertex(places.of(i / 3).apply({p[i], p[i + 1], p[i + 2]}));
+    return first_of_vertices_[key] = added;
+  }
+
+  void add_primitive(const tinygltf::Primitive& primitive, int skin, const Affine& to_world) {
     const int mode = primitive.mode;
     if (mode >= TINYGLTF_MODE_POINTS && mode <= TINYGLTF_MODE_LINE_STRIP) return;
     if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN) fail(where_, "is of an unknown mode");
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return;
-    const Range vertices = add_vertices(position->second, to_world);
+    const VertexPlaces places = places_of(primitive, position->second, skin, to_world);
+    const Range vertices = add_vertices(primitive, position->second, places);
     const std::vector<std::uint32_t> corners = read_corners(primitive, vertices);
     check_room(sink_.face_count(), corners.size(), "triangles");
     if constexpr (Sink::kDetails) {
@@ -189,7 +148,7 @@ class SurfaceBuilder {
       set_material(primitive.material);
       add_triangles(mode, corners);
       add_texcoords(primitive, vertices, first_corner);
-      add_normals(primitive, vertices, first_corner, to_world);
+      add_normals(primitive, vertices, first_corner, places);
     } else {
       add_triangles(mode, corners);
     }
@@ -266,19 +225,20 @@ class SurfaceBuilder {
   }
 
   void add_normals(const tinygltf::Primitive& primitive, const Range& vertices, std::size_t first_corner,
-                   const Affine& to_world) {
-    const Range range = add_attribute(primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices, sink_.normal_count(),
-                                      [&](const std::vector<double>& n) {
-                                        for (std::size_t i = 0; i < n.size(); i += 3)
-                                          sink_.add_normal(to_world.apply_to_normal({n[i], n[i + 1], n[i + 2]}));
-                                      });
+                   const VertexPlaces& places) {
+    const Range range = add_attribute(
+        primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices, sink_.normal_count(), [&](const std::vector<double>& n) {
+          for (std::size_t i = 0; i < n.size(); i += 3)
+            sink_.add_normal(places.of(i / 3).apply_to_normal({n[i], n[i + 1], n[i + 2]}));
+        });
     if (range.count > 0) sink_.take_vertex_normals(first_corner, vertices.first, range.count, range.first);
   }
 
   const Document& document_;
-  std::size_t most_;
+  gltf::SkinPoses skins_;
+  std::size_t most_, instance_count_ = 0;
   std::string where_;
-  std::map<int, Range> first_of_accessor_;
+  std::map<std::tuple<int, int, int>, Range> first_of_vertices_;
   std::map<std::pair<std::string_view, int>, Range> first_of_attribute_;
   Sink& sink_;
 };
@@ -289,7 +249,7 @@ template <class Sink>
 void read_gltf(const Source& source, const std::optional<std::filesystem::path>& folder, Sink& sink) {
   const Document document = gltf::read_document(source, folder);
   SurfaceBuilder<Sink> builder(document, sink);
-  for (const Instance& instance : find_instances(document)) builder.add(instance);
+  for (const Instance& instance : gltf::find_instances(document)) builder.add(instance);
 }
 
 template void read_gltf(const Source&, const std::optional<std::filesystem::path>&, SoupSink&);
