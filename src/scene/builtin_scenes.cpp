@@ -138,7 +138,6 @@ Scene make_twist() {
 Scene make_cantilever() {
   Scene scene;
   scene.title = "A beam held at one end bends under its weight";
-  scene.simulation.substeps = 20;
   SceneBody body = beam(1e6);
   body.material.elastic.poisson = 0.3;
   body.material.damping_time = 0.004;

@@ -66,7 +66,8 @@ void check_reach(const Make& m, const Pose& pose) {
 void add_part(World& world, std::size_t which, std::size_t surface, const Pose& pose, const Vec3d& centre) {
   const Rest& rest = world.rests[which];
   const Quaternion rotation = rotation_of(pose.rotate);
-  Part part{which, surface, world.bodies.size() - 1, static_cast<std::uint32_t>(world.places.size()), 0, 0, {}, {}};
+  Part part{which, surface, world.bodies.size() - 1, static_cast<std::uint32_t>(world.places.size()), 0, 0, {}, {},
+            {},    {}};
   // Tets know how they are turned from the start.
   kernel::TetRotations turned{};
   for (int lane = 0; lane < kernel::kTetLanes; ++lane) {

@@ -41,8 +41,9 @@ struct Rest {
   std::vector<kernel::TetBatch> batches;  ///< Responses and compliances as `prepare` made them.
   /// Ends of runs of batches: one round after the other; runs of a round share no vertex.
   std::vector<std::vector<std::size_t>> rounds;
-  double prepared_for = 0;     ///< Substep, s.
-  std::size_t part_count = 0;  ///< That share it.
+  double prepared_for = 0;       ///< Substep, s.
+  bool is_solved_whole = false;  ///< By the coupled system, not tet by tet; as choose_schemes() has it.
+  std::size_t part_count = 0;    ///< That share it.
 
   double shear_modulus() const { return material.elastic.young / (2 * (1 + material.elastic.poisson)); }
   double lame() const {

@@ -127,7 +127,8 @@ void Simulation::remove_spring(std::size_t spring) {
 void Simulation::step(double dt, const Progress& progress) {
   require(dt > 0 && dt <= 1, "dt", dt, "above 0 and at most 1 s");
   World& world = state_->world;
-  const int substeps = count_substeps(world, dt);
+  const int stretches = choose_schemes(world) ? count_stretches(world, dt) : 1;
+  const int per_stretch = (count_substeps(world, dt) + stretches - 1) / stretches, substeps = per_stretch * stretches;
   const double h = dt / substeps;
   const ContactTimes times(world, h);
   prepare_substeps(world, h);
@@ -140,7 +141,7 @@ void Simulation::step(double dt, const Progress& progress) {
         arrive(world);
         find_contacts(world, h * std::min(times.interval, substeps - i), times.edges_at(i), watch);
       }
-      move_freely(world, h);
+      move_freely(world, h, {h * per_stretch, i % per_stretch == 0});
       solve_springs(world, h);
       solve_contacts(world, h);
       solve_attachments(world, h);
@@ -152,6 +153,7 @@ void Simulation::step(double dt, const Progress& progress) {
   }
   world.time += done == substeps ? dt : done * h;
   world.report.substeps = done;
+  end_stretch(world);
   arrive(world);
   publish(world);
   watch.throw_if_stopped();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "kernel/places.h"
 #include "kernel/rigid_motion.h"
 #include "simulate/contacts.h"
+#include "simulate/held_solver.h"
 #include "simulate/obstacles.h"
 #include "simulate/potentials.h"
 #include "simulate/rest.h"
@@ -30,6 +32,8 @@ struct Part {
   std::size_t clamped = 0;
   std::vector<kernel::TetRotations> rotations;
   kernel::BoxTree boxes;  ///< Around its tets in the surface's order, when contacts were last searched for.
+  std::unique_ptr<HeldSystem> system = {};  ///< Where it is solved whole, and
+  std::vector<Vec3d> change = {};           ///< what its velocities gain when the stretch ends; none between steps.
 };
 
 struct Body {
