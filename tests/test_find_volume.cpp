@@ -104,6 +104,35 @@ TEST(FindVolume, shells_that_turn_their_outside_inwards_leave_a_space_hollow) {
   EXPECT_NEAR(volume_of(joined(outer, turned_over(inner)), 48, fill).report.volume, solid, 1e-9);
 }
 
+TEST(FindVolume, what_one_closed_surface_bounds_is_known_exactly) {
+  const auto bounded = [](const TriangleSoup& soup) { return volume_of(soup).report.bounded_volume; };
+  // 3.5 voxels thick: the voxels show 3 or 4.
+  const double thick = 3.5 / 48;
+  const TriangleSoup plate = make_box({0, 0, 0}, {1, 1, thick}), cube = make_box({0, 0, 0}, {1, 1, 1}),
+                     space = make_box({0.3, 0.3, 0.3}, {0.7, 0.7, 0.7});
+  EXPECT_GT(std::abs(volume_of(plate).report.volume - thick), 0.1 * thick) << "or the test shows nothing";
+  ASSERT_TRUE(bounded(plate).has_value());
+  EXPECT_NEAR(*bounded(plate), thick, 1e-6 * thick);
+  EXPECT_NEAR(*bounded(turned_over(plate)), thick, 1e-6 * thick);
+  EXPECT_NEAR(*bounded(joined(cube, turned_over(space))), 1 - 0.064, 1e-6) << "hollow";
+}
+
+TEST(FindVolume, what_is_not_one_closed_surface_bounds_nothing_that_is_known) {
+  const auto bounded = [](const TriangleSoup& soup) { return volume_of(soup).report.bounded_volume; };
+  const TriangleSoup cube = make_box({0, 0, 0}, {1, 1, 1}), inner = make_box({0.3, 0.3, 0.3}, {0.7, 0.7, 0.7});
+  EXPECT_FALSE(bounded(joined(cube, make_box({0.5, 0.5, 0.5}, {1.5, 1.5, 1.5})))) << "two that overlap";
+  EXPECT_FALSE(bounded(joined(cube, inner))) << "a solid in a solid";
+  EXPECT_FALSE(bounded(test::scrambled(cube, 5))) << "windings that say nothing";
+  TriangleSoup open = cube;
+  open.triangles.pop_back();
+  EXPECT_FALSE(bounded(open));
+  // A hollow space with a block in it: two shells in a shell.
+  EXPECT_FALSE(bounded(joined(joined(cube, turned_over(inner)), make_box({0.45, 0.45, 0.45}, {0.55, 0.55, 0.55}))));
+  // One surface that is there twice over: closed and oriented, but it bounds its space two times.
+  const TriangleSoup twice = joined(cube, make_box({-0.001, 0, 0}, {1, 1, 1}));
+  EXPECT_FALSE(bounded(twice));
+}
+
 TEST(FindVolume, random_windings_leave_no_trace) {
   const TriangleSoup soup = joined(make_ball(1), make_ball(0.6));
   const PseudoVolume whole = volume_of(test::scrambled(soup, 5));

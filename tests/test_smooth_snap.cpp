@@ -96,6 +96,42 @@ TEST(Snap, volume_that_began_far_from_the_voxels_is_left_to_the_fit) {
   EXPECT_EQ(result.report.volume_wanted, 0);
 }
 
+TEST(Snap, a_volume_that_is_known_goes_before_that_of_the_voxels) {
+  const BitGrid inside = voxels_of(in_ball);
+  const double volume = 1.04 * 4 / 3 * std::numbers::pi;
+  const SmoothResult result = smooth_tets(ball(0.25), SmoothTarget{.inside = &inside, .volume = volume});
+  EXPECT_EQ(result.report.volume_wanted, volume);
+  EXPECT_NEAR(measure_quality(result.mesh).volume, volume, 1e-4 * volume);
+}
+
+TEST(Snap, volume_that_the_fit_takes_too_much_of_comes_back) {
+  const BitGrid rod = voxels_of([](const Vec3d& p) { return std::hypot(p.x, p.y) < 0.17 && std::abs(p.z) < 1.1; });
+  const TetMesh mesh = lattice_of({-0.25, -0.25, -1.25}, {0.25, 0.25, 1.25}, 0.25,
+                                  [](const Vec3d& p) { return std::hypot(p.x, p.y) < 0.24 && std::abs(p.z) < 1.1; });
+  const SmoothReport left = smooth_tets(mesh, SmoothTarget{.inside = &rod}).report;
+  EXPECT_EQ(left.volume_wanted, 0) << "it begins twice as large: the fit decides";
+  const double volume = 1.1 * left.volume_after;
+  const SmoothResult result = smooth_tets(mesh, SmoothTarget{.inside = &rod, .volume = volume});
+  expect_limits(mesh, result.mesh);
+  EXPECT_NEAR(result.report.volume_after, volume, 1e-3 * volume);
+}
+
+TEST(Snap, both_faces_of_a_layer_are_drawn_to_the_wall_in_it) {
+  // A wall a seventh of an edge thick, right below the layer's upper face.
+  const double edge = 0.4 * (1 + std::sqrt(2.0)) / 2;
+  const BitGrid wall = voxels_of([](const Vec3d& p) { return p.z > 0.11 && p.z < 0.19; });
+  const TetMesh layer = lattice_of({-1.2, -1.2, -0.2}, {1.2, 1.2, 0.2}, 0.4, [](const Vec3d&) { return true; });
+  const SmoothResult result = smooth_tets(layer, SmoothTarget{.inside = &wall});
+  expect_limits(layer, result.mesh);
+  double lower = 0, upper = 0, count = 0;
+  for (std::size_t v = 0; v < layer.vertices.size(); ++v) {
+    (layer.vertices[v].z < 0 ? lower : upper) += static_cast<double>(result.mesh.vertices[v].z);
+    count += layer.vertices[v].z < 0;
+  }
+  EXPECT_NEAR((lower + upper) / (2 * count), 0.15, 0.05 * edge) << "in the middle of the wall";
+  EXPECT_LT((upper - lower) / count, 0.4 * edge) << "as flat as the angles allow";
+}
+
 TEST(Snap, the_rim_of_a_sheet_stays_where_the_soup_has_it) {
   const BitGrid sheet = voxels_of([](const Vec3d&) { return false; });  // it passes between the voxels' centres
   const TriangleSoup soup{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};

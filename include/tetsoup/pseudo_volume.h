@@ -72,7 +72,10 @@ struct PseudoVolumeReport {
   double largest_closure = 0;
   double soup_covered = 1;  ///< Share of the voxels the soup passes through that have an inside voxel beside them.
   std::size_t inside_voxels = 0;
-  double volume = 0;     ///< Of the inside voxels.
+  double volume = 0;  ///< Of the inside voxels.
+  /// What the soup bounds, where that is known: one closed and oriented surface, but for hollow spaces in it. Voxels
+  /// may make a wall half a voxel thicker or thinner on either side, which for a thin one is much.
+  std::optional<double> bounded_volume;
   double consensus = 0;  ///< Mean of |2 votes / rays - 1| over all voxels; 1 = all rays agree everywhere.
   std::vector<std::string>
       notes;  ///< What the user should know, and the option that changes it: one sentence or two each.

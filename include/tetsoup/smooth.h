@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ enum class Stay {
 /// What smoothing may know besides the mesh.
 struct SmoothTarget {
   const BitGrid* inside = nullptr;      ///< The pseudo volume whose surface the boundary is drawn to.
+  std::optional<double> volume;         ///< Of what the voxels show, where it is known; absent: they are counted.
   const TriangleSoup* soup = nullptr;   ///< What the mesh reaches of it at the start is held on to.
   std::span<const Vec3> enclosed = {};  ///< Those of them that lie in the mesh at the start stay in it, the others out.
   Stay stay = Stay::Free;
@@ -48,8 +50,8 @@ struct SmoothReport {
   std::size_t shortened_moves = 0;  ///< Moves the limits cut short, over all passes.
   double volume_before = 0;
   double volume_after = 0;
-  /// What the volume should be: that before, kept within 1e-4; snapped, that of the pseudo volume, if the mesh began
-  /// within a tenth of it (else it is what the fit gives, and this is 0).
+  /// What the volume should be: that before, kept within 1e-4; snapped, the target's, if the mesh began within a tenth
+  /// of the voxels' or the fit would leave it up to a fifth too small (else it is what the fit gives, and this is 0).
   double volume_wanted = 0;
   double min_dihedral = 0;  ///< After smoothing, radians.
   /// For each boundary vertex, in ascending vertex order: volume of the tets around it, after over before.
@@ -80,9 +82,9 @@ SmoothResult smooth_tets(const TetMesh& mesh, const SmoothOptions& options = {},
 /// Each pass looks from points of every boundary triangle for the surface, then moves every vertex once to the least
 /// of three things weighed against each other: the distance of the triangles around it from there, the bending of the
 /// boundary, and the shape of its tets, 1 / q^3 with the mean ratio q. All moves keep the limits as above. The volume
-/// of the whole comes out as that of the pseudo volume. With a soup, points of it that the mesh reached and draws back
-/// from pull as well: without, a layer of tets around a sheet shrinks at its rim.
-/// Cost: O(passes x tets), whatever the size of the grid.
+/// of the whole comes out as the target's. Both faces of a layer one tet thick are drawn to the two of the wall in it.
+/// With a soup, points of it that the mesh reached and draws back from pull as well: without, a layer of tets around a
+/// sheet shrinks at its rim. Cost: O(passes x tets), whatever the size of the grid.
 SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const SmoothOptions& options = {},
                          const Progress& progress = {});
 

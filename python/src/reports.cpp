@@ -49,6 +49,7 @@ void bind_volume_report(nb::module_& m) {
       .field("soup_covered", &R::soup_covered, "Share of the soup's voxels with an inside voxel beside them.")
       .field("inside_voxels", &R::inside_voxels, "Their number.")
       .field("volume", &R::volume, "Of the inside voxels.")
+      .field("bounded_volume", &R::bounded_volume, "What a closed surface bounds exactly; None: not known.")
       .field("consensus", &R::consensus, "Mean of |2 votes / rays - 1|; 1 = all rays agree everywhere.")
       .field("notes", &R::notes, "What you should know, and the option that changes it.");
 }

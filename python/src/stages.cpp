@@ -131,6 +131,7 @@ void bind_functions(nb::module_& m) {
         const SmoothOptions chosen = read_options(options, "smooth").smooth;
         const std::vector<Vec3> points = copy_rows<Vec3>(enclosed);
         const SmoothTarget target{.inside = volume == nullptr ? nullptr : &volume->inside,
+                                  .volume = volume == nullptr ? std::nullopt : volume->report.bounded_volume,
                                   .soup = soup == nullptr ? nullptr : &soup->soup,
                                   .enclosed = points};
         SmoothResult result =

@@ -283,6 +283,7 @@ void Pipeline::smooth_all(const Progress& progress) {
     if (!body.lattice) continue;
     SmoothTarget target;
     target.inside = &body.volume->inside;
+    target.volume = body.volume->report.bounded_volume;
     if (options_.lattice.cover == Cover::Enclose) target.enclosed = soup_of(body).soup.vertices;
     if (options_.lattice.cover == Cover::Inside)
       target.stay = Stay::WithinVolume;

@@ -50,8 +50,11 @@ PseudoVolume united_volume(const std::vector<const PseudoVolume*>& bodies, const
   all.inside = make_bit_grid(grid);
   PseudoVolumeReport& report = all.report;
   double weight = 0;
+  std::optional<double> bounded = 0;
   for (const PseudoVolume* body : bodies) {
     const PseudoVolumeReport& own = body->report;
+    if (!own.bounded_volume) bounded.reset();
+    if (bounded) *bounded += *own.bounded_volume;
     mark(body->inside, all.inside);
     if (own.volume > weight || body == bodies.front()) {  // what cannot be added up is the largest body's
       weight = own.volume;
@@ -73,6 +76,7 @@ PseudoVolume united_volume(const std::vector<const PseudoVolume*>& bodies, const
     report.notes.insert(report.notes.end(), own.notes.begin(), own.notes.end());
     all.rays = body->rays;
   }
+  report.bounded_volume = bounded;
   all.votes.frame = grid;
   all.votes.words_per_row = all.inside.words_per_row;
   all.votes.words.resize(all.inside.words.size());

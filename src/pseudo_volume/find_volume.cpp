@@ -294,7 +294,7 @@ PseudoVolume find_volume(const CleanSoup& soup, const GridFrame& frame, const Ps
   }
   Solids solids;
   if (!split.sound.empty()) solids = find_solids(soup, frame, options.cavities, watch);
-  const std::vector<SoupCavity> cavities = std::move(solids.nests.cavities);
+  const Nests nests = std::move(solids.nests);
   PseudoVolume volume;
   if (split.unsound.empty()) {
     volume = agreed(soup, std::move(solids), options, watch);
@@ -308,12 +308,13 @@ PseudoVolume find_volume(const CleanSoup& soup, const GridFrame& frame, const Ps
   }
   if (options.thickness) thicken_sheets(soup, *options.thickness, volume, progress);
   PseudoVolumeReport& report = volume.report;
-  report.cavities = cavities;
+  report.cavities = nests.cavities;
   note_cavities(options, report);
   report.exact_share =
       static_cast<double>(split.sound.size()) / static_cast<double>(split.sound.size() + split.unsound.size());
   report.inside_voxels = count_voxels(volume.inside);
   report.volume = static_cast<double>(report.inside_voxels) * elementary::cube(frame.voxel_size);
+  if (split.unsound.empty()) report.bounded_volume = bounded_volume(soup, nests, report.volume, frame);
   return volume;
 }
 

@@ -149,6 +149,28 @@ BitGrid fill_solids(const CleanSoup& soup, const Nests& nests, const GridFrame& 
   return inside;
 }
 
+std::optional<double> bounded_volume(const CleanSoup& soup, const Nests& nests, double of_voxels,
+                                     const GridFrame& frame) {
+  const std::vector<SoupPart>& parts = soup.parts.parts;
+  std::vector<std::uint8_t> is_hollow(parts.size(), 0);
+  for (const SoupCavity& cavity : nests.cavities) is_hollow[cavity.part] = 1;
+  double volume = 0;
+  bool has_outside = false;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const bool is_second = is_hollow[p] != 0 ? is_hollow[soup.parts.around[p]] != 0 : has_outside;
+    if (!parts[p].oriented || is_second) return std::nullopt;
+    volume += (is_hollow[p] != 0 ? -1 : 1) * std::abs(parts[p].volume);
+    has_outside = has_outside || is_hollow[p] == 0;
+  }
+  double area = 0;
+  for (const auto& [a, b, c] : soup.soup.triangles) {
+    const Vec3d at = to_double(soup.soup.vertices[a]);
+    area += length(cross(to_double(soup.soup.vertices[b]) - at, to_double(soup.soup.vertices[c]) - at)) / 2;
+  }
+  if (std::abs(volume - of_voxels) > area * frame.voxel_size / 2) return std::nullopt;
+  return volume;
+}
+
 void close_hairlines(BitGrid& inside, int most) {
   const BitGrid before = inside;
   const std::array<int, 3>& size = inside.frame.size;

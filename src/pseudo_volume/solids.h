@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,11 @@ Nests make_nests(const SoupParts& parts, std::span<const std::uint32_t> around, 
 
 /// Voxels whose centres lie inside.
 BitGrid fill_solids(const CleanSoup& soup, const Nests& nests, const GridFrame& frame, StageWatch& watch);
+
+/// What the soup bounds, if it is one closed, oriented surface and hollow spaces right in it; none where the voxels say
+/// otherwise by more than half a voxel all over it, as where the surface passes through itself.
+std::optional<double> bounded_volume(const CleanSoup& soup, const Nests& nests, double of_voxels,
+                                     const GridFrame& frame);
 
 /// Fills what lies between two inside voxels of a row along x, y or z with at most `most` voxels between them.
 void close_hairlines(BitGrid& inside, int most);

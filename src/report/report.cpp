@@ -167,6 +167,7 @@ std::string to_json(const PseudoVolumeReport& report) {
                   {"cavities_kept", report.cavities.size()},
                   {"cavity_voxels", report.cavity_voxels},
                   {"volume", report.volume},
+                  {"bounded_volume", optional_json(report.bounded_volume)},
                   {"consensus", report.consensus},
                   {"soup_covered", report.soup_covered},
                   {"candidates", candidates}});

@@ -39,7 +39,8 @@ struct TriangleAim {
 std::vector<Vec3d> unit_normals(const Connectivity& links, const GuardedMesh& mesh);
 
 /// Looks from every sample along the normal for the place where the voxels change: outwards from an inside voxel,
-/// inwards from an outside one, as far as `reach`.
+/// inwards from an outside one, as far as `reach`; inwards twice as far in layers one tet thick, so that both faces are
+/// drawn to the two surfaces of a thin wall.
 ///
 /// @param normals  As unit_normals() gives them.
 /// @param level  How far outside of there the boundary should lie.

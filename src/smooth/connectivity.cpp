@@ -86,6 +86,16 @@ void split_vertices(std::size_t vertex_count, Connectivity& links) {
   }
 }
 
+/// In a layer one tet thick, all vertices are.
+void find_bare(Connectivity& links) {
+  links.is_bare.assign(links.part_of_vertex.size(), 0);
+  const auto is_inside = [&](std::uint32_t v) { return links.boundary_neighbours[v].empty(); };
+  for (const std::uint32_t v : links.boundary) {
+    const auto around = links.neighbours[v];
+    links.is_bare[v] = std::none_of(around.begin(), around.end(), is_inside);
+  }
+}
+
 }  // namespace
 
 VertexLists::VertexLists(std::size_t vertex_count, const std::vector<Entry>& entries) : begin_(vertex_count + 1, 0) {
@@ -117,6 +127,7 @@ Connectivity connect(const TetMesh& mesh) {
   links.boundary_triangles = triangles_around(mesh.vertices.size(), links.triangles);
   split_vertices(mesh.vertices.size(), links);
   find_parts(mesh, links);
+  find_bare(links);
   return links;
 }
 

@@ -36,6 +36,7 @@ struct Connectivity {
   std::vector<Triangle> triangles;            ///< Of the boundary.
   std::vector<std::uint32_t> boundary;        ///< Vertices of the boundary, ascending.
   std::vector<std::uint32_t> interior;        ///< Vertices inside, ascending.
+  std::vector<std::uint8_t> is_bare;          ///< By vertex: it and all its neighbours lie on the boundary.
   VertexLists boundary_neighbours;            ///< Along the edges of the boundary triangles.
   VertexLists boundary_triangles;             ///< Around each vertex.
   std::vector<std::uint32_t> part_of_tet;     ///< Tets joined through vertices form one part.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kReach = 0.5;  // Mean edges: half a tet is what density leaves or lacks.
 // Of the inside voxels' volume: a mesh that differs by more does not follow them (a sheet whose tets were kept for the
-// soup in them, thin parts of a plate), and its volume is left to the fit.
-constexpr double kNear = 0.1;
+// soup in them, thin parts of a plate), and its volume is left to the fit, unless that takes too much of it.
+constexpr double kNear = 0.1, kLacking = 0.2;
 constexpr double kShareOfPasses = 0.95;  // Of the stage's time; the rest goes into the volume.
 
 double mean_edge(const Connectivity& links, const GuardedMesh& mesh) {
@@ -54,9 +54,13 @@ double boundary_area(const Connectivity& links, const GuardedMesh& mesh) {
 double fit_to_surface(const Connectivity& links, const SmoothTarget& target, int passes, GuardedMesh& mesh,
                       StageWatch& watch) {
   const BitGrid& inside = *target.inside;
-  const double edge = mean_edge(links, mesh), volume = volume_of(inside);
-  const double wanted = std::abs(volume_of(mesh) - volume) < kNear * volume ? volume : 0;
-  double level = 0;
+  const double edge = mean_edge(links, mesh), counted = volume_of(inside), wanted = target.volume.value_or(counted);
+  const bool follows = std::abs(volume_of(mesh) - counted) < kNear * counted;
+  const auto lack = [&] {
+    const double volume = wanted - volume_of(mesh);
+    return follows || (volume > 0 && volume < kLacking * wanted) ? volume : 0;
+  };
+  double level = (wanted - counted) / boundary_area(links, mesh);
   std::optional<SoupPoints> points;
   if (target.soup != nullptr) points.emplace(*target.soup, links, mesh.mesh(), edge, watch);
   for (int pass = 0; pass < passes; ++pass) {
@@ -67,11 +71,12 @@ double fit_to_surface(const Connectivity& links, const SmoothTarget& target, int
     mesh.look_around(watch);
     relax(links, aims, edge, pass % 2 == 0 ? Sweep::Forwards : Sweep::Backwards, mesh, watch);
     // Chords and what blunts edges take volume: the next pass aims as far outside as gives it back.
-    if (wanted > 0) level += (wanted - volume_of(mesh)) / boundary_area(links, mesh);
+    level += lack() / boundary_area(links, mesh);
   }
   watch.enter_part(kShareOfPasses, 1);
   mesh.look_around(watch);
-  if (wanted > 0) approach_volume(links, wanted, mesh, watch);
+  if (!follows && lack() == 0) return 0;
+  approach_volume(links, wanted, mesh, watch);
   return wanted;
 }
 

@@ -8,8 +8,9 @@
 
 namespace tetsoup {
 
-/// Fits the boundary in `passes` steps, then brings the volume near that of the inside voxels, if it began near it.
-/// @return  The volume aimed at; 0 where it did not begin near.
+/// Fits the boundary in `passes` steps, then brings the volume near the target's, if it began near that of the voxels
+/// or the fit took a little too much.
+/// @return  The volume aimed at; 0 where it was left to the fit.
 double fit_to_surface(const Connectivity& links, const SmoothTarget& target, int passes, GuardedMesh& mesh,
                       StageWatch& watch);
 
