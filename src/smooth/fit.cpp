@@ -58,7 +58,8 @@ double fit_to_surface(const Connectivity& links, const SmoothTarget& target, int
   const bool follows = std::abs(volume_of(mesh) - counted) < kNear * counted;
   const auto lack = [&] {
     const double volume = wanted - volume_of(mesh);
-    return follows || (volume > 0 && volume < kLacking * wanted) ? volume : 0;
+    const bool is_taken = target.stay == Stay::Free && volume > 0 && volume < kLacking * wanted;
+    return follows || is_taken ? volume : 0;
   };
   double level = (wanted - counted) / boundary_area(links, mesh);
   std::optional<SoupPoints> points;
