@@ -76,8 +76,8 @@ TEST_F(ReadSoup, what_cannot_be_read_says_why) {
   expect_error(folder_, "Is a directory");
   expect_error(write("empty.obj", ""), "is empty");
   expect_error("/dev/null", "is a device");
-  expect_error(write("scene.fbx", kObj),
-               "unknown extension '.fbx' and unknown content; known: .obj .stl .ply .off .gltf .glb");
+  expect_error(write("scene.foo", kObj),
+               "unknown extension '.foo' and unknown content; known: .obj .stl .ply .off .gltf .glb .3mf .dae");
   expect_error(write("scene", kObj), "no extension and unknown content");
   const fs::path locked = write("locked.obj", kObj);
   fs::permissions(locked, fs::perms::none);
@@ -124,6 +124,17 @@ TEST(ParseNumber, hard_cases_are_rounded_right) {
     ASSERT_TRUE(readers::parse_number(at, at + text.size(), parsed));
     EXPECT_EQ(static_cast<float>(parsed), static_cast<float>(std::strtod(text.c_str(), nullptr))) << text;
   }
+}
+
+TEST_F(ReadSoup, what_is_not_read_says_what_to_do_instead) {
+  const auto expect = [&](const std::string& name, const std::string& bytes, const char* what) {
+    EXPECT_NE(error_at(write(name, bytes)).find(what), std::string::npos) << error_at(folder_ / name);
+  };
+  expect("a.STP", "x", "export it as STL or 3MF, for instance from FreeCAD");
+  expect("part", "ISO-10303-21;\nHEADER;", "FreeCAD");
+  expect("a.usda", "#usda 1.0", "is USD, of which no surface is read");
+  expect("a.splat", "x", "holds points, not triangles");
+  expect("a.fbx", "x", "Blender");
 }
 
 TEST(Models, all_load_with_the_triangle_counts_their_page_states) {

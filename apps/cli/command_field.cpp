@@ -66,7 +66,9 @@ void add_field_command(CLI::App& app) {
   const auto command = std::make_shared<FieldCommand>();
   CLI::App* const field = app.add_subcommand("field", "Write distance, votes and inside bits on a grid");
   field->group("Commands")->footer(kExamples);
-  field->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb")->required()->option_text(" ");
+  field->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb .3mf .dae")
+      ->required()
+      ->option_text(" ");
   field->add_option("-o,--output", command->output, "File for the grids: .vti")->required()->option_text("OUT");
   add_grid_flags(*field, command->options.distance);
   field->add_flag("--band-only", command->band_only, "Distances only where meshing needs them, infinite elsewhere")

@@ -83,7 +83,7 @@ void add_inspect_command(CLI::App& app) {
   inspect->group("Commands")->footer(kExamples);
   inspect
       ->add_option("IN", command->input,
-                   "Triangles (.obj .stl .ply .off .gltf .glb) or tets (.msh .vtk .vtu .mesh .npz .node)")
+                   "Triangles (.obj .stl .ply .off .gltf .glb .3mf .dae) or tets (.msh .vtk .vtu .mesh .npz .node)")
       ->required()
       ->option_text(" ");
   add_flag(

@@ -242,7 +242,9 @@ void add_mesh_command(CLI::App& app) {
   const auto command = std::make_shared<MeshCommand>();
   CLI::App* const mesh = app.add_subcommand("mesh", "Turn a triangle soup into a tet mesh");
   mesh->group("Commands")->footer(kExamples);
-  mesh->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb")->required()->option_text(" ");
+  mesh->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb .3mf .dae")
+      ->required()
+      ->option_text(" ");
   add_output_flags(*mesh, command->meshes);
   add_grid_flags(*mesh, command->options.distance);
   add_volume_flags(*mesh, command->options.pseudo_volume);

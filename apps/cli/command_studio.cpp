@@ -85,7 +85,7 @@ void add_studio_command(CLI::App& app) {
   const auto command = std::make_shared<StudioCommand>();
   CLI::App* const studio = app.add_subcommand("studio", "Shape a mesh by hand, in the browser");
   studio->group("Commands")->footer(kExamples);
-  studio->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb")->option_text(" ");
+  studio->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb .3mf .dae")->option_text(" ");
   add_flag(
       *studio, "--port", "N",
       [command](const std::string& text) { command->port = parse_whole("--port", text, kPort); },

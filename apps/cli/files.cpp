@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 
 #include "tetsoup/error.h"
 #include "tetsoup/samples.h"
@@ -53,8 +54,17 @@ void check_input(const fs::path& path) {
 
 namespace {
 
+/// A USD file may hold tets, a surface or anything; its text tells.
+bool is_usd_without_tets(const fs::path& path) {
+  if (lower_extension(path) != ".usda") return false;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);)
+    if (line.find("def TetMesh") != line.npos) return false;
+  return true;
+}
+
 void refuse_tets(const fs::path& path) {
-  if (is_tet_file(path))
+  if (is_tet_file(path) && !is_usd_without_tets(path))
     throw IoError(path.string() +
                   ": this is a tet mesh already, where triangles are wanted; `tetsoup inspect` shows how good it is if "
                   "it is .msh .vtk .vtu .mesh .npz or .node");

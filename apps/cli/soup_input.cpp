@@ -21,6 +21,11 @@ Pipeline open_pipeline(const std::filesystem::path& input, const TriangleSoup& s
   throw_if_interrupted();
   Pipeline pipeline(soup, bar.callback());
   const SoupReport& report = pipeline.soup().report;
+  if (report.kind == SoupClass::Empty && report.triangle_count == 0 && !soup.vertices.empty())
+    throw CannotMesh(fmt::format(
+        "{}: it holds points, not triangles ({} of them); make a surface of them first, for instance by Poisson "
+        "reconstruction in MeshLab or Open3D",
+        input.string(), grouped(soup.vertices.size())));
   if (report.kind == SoupClass::Empty)
     throw CannotMesh(
         fmt::format("{}: no usable triangle: {} given, {} with non-finite coordinates, {} with indices out of "

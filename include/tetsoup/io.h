@@ -21,7 +21,7 @@ namespace tetsoup {
 
 // --- Triangle soups -------------------------------------------------------------------------------------------------
 
-enum class SoupFormat { Obj, Stl, Ply, Off, Gltf };
+enum class SoupFormat { Obj, Stl, Ply, Off, Gltf, ThreeMf, Collada };
 
 /// Reads a soup; the format is told from the content where that is certain, else from the extension (.obj .stl .ply
 /// .off .gltf .glb). Polygons are cut into fans; NaN and wild indices are passed on, since clean_soup() counts them.

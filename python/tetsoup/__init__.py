@@ -77,7 +77,7 @@ for _error in (InvalidInput, IoError, Cancelled):
 
 
 def read(path: str | os.PathLike[str]) -> Soup:
-    """Reads triangles: .obj .stl .ply .off .gltf .glb. Polygons are cut into fans; nothing else is changed.
+    """Reads triangles: .obj .stl .ply .off .gltf .glb .3mf .dae. Polygons are cut into fans; nothing else is changed.
 
     Returns:
         A `Soup`: vertices (N, 3) float32, faces (F, 3) integers.

@@ -12,6 +12,7 @@
 #include "io/atomic_file.h"
 #include "io/file_names.h"
 #include "io/npz.h"
+#include "io/zip_reader.h"
 #include "io/raw_numbers.h"
 #include "io/soup_readers.h"
 #include "tetsoup/error.h"

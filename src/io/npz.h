@@ -38,9 +38,6 @@ class NpzWriter {
   std::size_t count_ = 0;
 };
 
-/// As the readers of tet meshes say it. @throws IoError
-[[noreturn]] void fail_in_file(const std::string& name, std::size_t byte, const std::string& what);
-
 /// An array within the bytes of its file.
 struct NpzArray {
   std::string type;  ///< As NumPy calls it: "<f4".

@@ -10,6 +10,7 @@
 #include "base/tet_geometry.h"
 #include "io/model_parts.h"
 #include "io/npz.h"
+#include "io/zip_reader.h"
 #include "io/tet_readers.h"
 #include "io/tet_writers.h"
 

@@ -11,6 +11,7 @@
 #include "io/crc32.h"
 #include "io/npz.h"
 #include "io/raw_numbers.h"
+#include "io/zip_reader.h"
 #include "tetsoup/error.h"
 
 namespace tetsoup {
@@ -21,88 +22,12 @@ std::string in_quotes(const std::string& text) {
   return "'" + text + "'";
 }
 
-/// Bytes of a file from an offset on.
-class Cursor {
- public:
-  /// @param begin  Where the bytes begin in the file.
-  Cursor(std::string_view bytes, const std::string& name, std::size_t at, std::size_t begin = 0)
-      : bytes_(bytes), name_(name), at_(at), begin_(begin) {
-    if (at > bytes.size()) fail_in_file(name, bytes.size(), "the file ends before byte " + std::to_string(at));
-  }
-
-  std::size_t at() const { return at_; }
-  std::string_view take(std::size_t count) {
-    if (count > bytes_.size() - at_) fail_in_file(name_, begin_ + bytes_.size(), "the bytes end within a record");
-    at_ += count;
-    return bytes_.substr(at_ - count, count);
-  }
-  template <class Number>
-  Number number() {
-    return load_raw<Number>(take(sizeof(Number)));
-  }
-  void expect(std::string_view mark, const char* what) {
-    const std::size_t begin = at_;
-    if (take(mark.size()) != mark) fail_in_file(name_, begin_ + begin, std::string("expected ") + what);
-  }
-
- private:
-  std::string_view bytes_;
-  const std::string& name_;
-  std::size_t at_, begin_;
-};
-
-struct Member {
-  std::string_view name;
-  std::uint32_t checksum = 0;
-  std::size_t size = 0, header_at = 0;
-};
-
-/// The directory's place stands at the very end, before a comment.
-Cursor open_directory(std::string_view bytes, const std::string& name, std::size_t& count) {
-  constexpr std::size_t kEndBytes = 22, kLongestComment = 65535;
-  const std::size_t first = bytes.size() > kEndBytes + kLongestComment ? bytes.size() - kEndBytes - kLongestComment : 0;
-  const std::size_t found = bytes.substr(first).rfind("PK\x05\x06");
-  if (found == bytes.npos)
-    fail_in_file(name, bytes.size(), "not a .npz file: it does not end in the directory of a zip file");
-  Cursor end(bytes, name, first + found + 10);
-  count = end.number<std::uint16_t>();
-  end.take(4);
-  const std::size_t begin = end.number<std::uint32_t>();
-  end.take(2);
-  return {bytes, name, begin};
-}
-
-Member read_entry(Cursor& directory, const std::string& name) {
-  const std::size_t begin = directory.at();
-  directory.expect("PK\x01\x02", "an entry of the zip file's directory");
-  directory.take(4);
-  const auto flags = directory.number<std::uint16_t>(), method = directory.number<std::uint16_t>();
-  directory.take(4);
-  Member member;
-  member.checksum = directory.number<std::uint32_t>();
-  const auto stored = directory.number<std::uint32_t>(), size = directory.number<std::uint32_t>();
-  const std::size_t name_size = directory.number<std::uint16_t>(), extra = directory.number<std::uint16_t>(),
-                    comment = directory.number<std::uint16_t>();
-  directory.take(8);
-  member.header_at = directory.number<std::uint32_t>();
-  member.name = directory.take(name_size);
-  directory.take(extra + comment);
-  member.size = size;
-  if (method != 0 || (flags & 1U) != 0)
-    fail_in_file(name, begin, "an array is compressed or encrypted; save with numpy.savez");
-  if (stored != size) fail_in_file(name, begin, "an array is stored in another size than its own");
-  return member;
-}
-
-std::string_view open_member(std::string_view bytes, const std::string& name, const Member& member,
+std::string_view open_member(std::string_view bytes, const std::string& name, const ZipMember& member,
                              std::size_t& offset) {
-  Cursor header(bytes, name, member.header_at);
-  header.expect("PK\x03\x04", "a member of the zip file");
-  header.take(22);
-  const std::size_t name_size = header.number<std::uint16_t>(), extra = header.number<std::uint16_t>();
-  header.take(name_size + extra);
-  offset = header.at();
-  const std::string_view content = header.take(member.size);
+  if (!member.stored) fail_in_file(name, member.entry_at, "an array is compressed or encrypted; save with numpy.savez");
+  if (member.packed_size != member.size)
+    fail_in_file(name, member.entry_at, "an array is stored in another size than its own");
+  const std::string_view content = packed_bytes(bytes, name, member, offset);
   if (crc32(content) != member.checksum) fail_in_file(name, offset, "an array's checksum is wrong");
   return content;
 }
@@ -145,7 +70,7 @@ std::size_t element_size(std::string_view type) {
 
 std::optional<NpzArray> read_npy(std::string_view content, const std::string& name, std::size_t offset) {
   constexpr std::size_t kMostDimensions = 32;
-  Cursor in(content, name, 0, offset);
+  ByteCursor in(content, name, 0, offset);
   in.expect("\x93NUMPY", "the header of an array");
   const auto version = in.number<std::uint8_t>();
   in.take(1);
@@ -202,10 +127,6 @@ const NpzArray& find_array(const std::map<std::string, NpzArray>& arrays, const 
 
 }  // namespace
 
-void fail_in_file(const std::string& name, std::size_t byte, const std::string& what) {
-  throw IoError(name + ": byte " + std::to_string(byte) + ": " + what);
-}
-
 std::size_t NpzArray::count() const {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
@@ -213,13 +134,10 @@ std::size_t NpzArray::count() const {
 std::map<std::string, NpzArray> read_npz(std::string_view bytes, const std::string& name) {
   constexpr std::string_view kExtension = ".npy";
   std::map<std::string, NpzArray> arrays;
-  std::size_t count = 0;
-  Cursor directory = open_directory(bytes, name, count);
   std::size_t left = bytes.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Member member = read_entry(directory, name);
+  for (const ZipMember& member : read_zip_directory(bytes, name, "a .npz file")) {
     if (!member.name.ends_with(kExtension)) continue;
-    if (member.size > left) fail_in_file(name, directory.at(), "its arrays take more than the whole file");
+    if (member.size > left) fail_in_file(name, member.entry_at, "its arrays take more than the whole file");
     left -= member.size;
     std::size_t offset = 0;
     const std::string_view content = open_member(bytes, name, member, offset);

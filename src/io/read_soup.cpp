@@ -1,5 +1,6 @@
 // Which reader takes a file: by content where that is certain, else by extension.
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -50,7 +51,7 @@ std::vector<std::byte> read_whole_file(const std::filesystem::path& path) {
 
 namespace {
 
-constexpr const char* kKnownExtensions = "known: .obj .stl .ply .off .gltf .glb";
+constexpr const char* kKnownExtensions = "known: .obj .stl .ply .off .gltf .glb .3mf .dae";
 
 bool starts_with(std::span<const std::byte> bytes, std::string_view text) {
   return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
@@ -59,18 +60,27 @@ bool starts_with(std::span<const std::byte> bytes, std::string_view text) {
 std::optional<SoupFormat> format_of_content(std::span<const std::byte> bytes) {
   if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return SoupFormat::Ply;
   if (starts_with(bytes, "glTF")) return SoupFormat::Gltf;
+  if (starts_with(bytes, "PK\x03\x04")) return SoupFormat::ThreeMf;
+  if (is_collada(bytes)) return SoupFormat::Collada;
   if (is_off(bytes)) return SoupFormat::Off;
   if (is_stl(bytes)) return SoupFormat::Stl;
   return {};
 }
 
-std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
+std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+  return extension;
+}
+
+std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
   if (extension == ".obj") return SoupFormat::Obj;
   if (extension == ".stl") return SoupFormat::Stl;
   if (extension == ".ply") return SoupFormat::Ply;
   if (extension == ".off") return SoupFormat::Off;
+  if (extension == ".3mf") return SoupFormat::ThreeMf;
+  if (extension == ".dae") return SoupFormat::Collada;
   if (extension == ".gltf" || extension == ".glb") return SoupFormat::Gltf;
   return {};
 }
@@ -94,14 +104,50 @@ auto parse(const Source& source, SoupFormat format, const std::optional<std::fil
     case SoupFormat::Gltf:
       read_gltf(source, folder, sink);
       break;
+    case SoupFormat::ThreeMf:
+      read_3mf(source, sink);
+      break;
+    case SoupFormat::Collada:
+      read_collada(source, sink);
+      break;
   }
   if (sink.vertex_count() >= kNoVertex) fail(source.name, "more vertices than 32-bit indices can name");
   return sink.take();
 }
 
+/// What people have that is not read, and how to get from there to what is.
+struct WayOut {
+  std::vector<std::string_view> extensions;
+  const char* says;
+};
+
+/// Null: nobody knows.
+const char* way_out(std::string_view extension) {
+  static const std::array<WayOut, 4> ways = {{
+      {{".step", ".stp", ".iges", ".igs", ".brep"},
+       "holds curved CAD surfaces, not triangles: export it as STL or 3MF, for instance from FreeCAD (File, Export), "
+       "or "
+       "`gmsh FILE -2 -format stl -o part.stl`"},
+      {{".usd", ".usda", ".usdc", ".usdz"},
+       "is USD, of which no surface is read: export as .glb or .obj, for instance from Blender; in Python, usd-core's "
+       "UsdGeom.Mesh has points and face indices for tetsoup.mesh()"},
+      {{".fbx", ".blend", ".3ds", ".lwo", ".x3d", ".wrl", ".abc"},
+       "is not read: open it in Blender and export as .glb or .obj"},
+      {{".splat", ".spz", ".ksplat", ".pcd", ".las", ".laz", ".xyz", ".e57"},
+       "holds points, not triangles: make a surface of them first, for instance by Poisson reconstruction in MeshLab "
+       "or "
+       "Open3D"},
+  }};
+  for (const WayOut& way : ways)
+    if (std::find(way.extensions.begin(), way.extensions.end(), extension) != way.extensions.end()) return way.says;
+  return nullptr;
+}
+
 SoupFormat format_of(const std::filesystem::path& path, const Source& source) {
   if (const auto format = format_of_content(source.bytes)) return *format;
   if (const auto format = format_of_extension(path)) return *format;
+  if (starts_with(source.bytes, "ISO-10303-21")) fail(source.name, way_out(".step"));
+  if (const char* const says = way_out(lower_extension(path))) fail(source.name, says);
   const std::string extension = path.extension().string();
   fail(source.name, (extension.empty() ? std::string("no extension") : "unknown extension '" + extension + "'") +
                         " and unknown content; " + kKnownExtensions);

@@ -47,6 +47,13 @@ void read_off(const Source& source, Sink& sink);
 template <class Sink>
 void read_gltf(const Source& source, const std::optional<std::filesystem::path>& folder, Sink& sink);
 
+template <class Sink>
+void read_3mf(const Source& source, Sink& sink);
+template <class Sink>
+void read_collada(const Source& source, Sink& sink);
+
+/// True if the text is XML whose outermost element is Collada's.
+bool is_collada(std::span<const std::byte> bytes);
 /// True if the bytes can be nothing but an STL file, by their text or by their exact size.
 bool is_stl(std::span<const std::byte> bytes);
 /// True if the text starts with one of OFF's header words.

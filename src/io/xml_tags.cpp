@@ -1,6 +1,8 @@
 #include "io/xml_tags.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace tetsoup {
 
@@ -43,6 +45,30 @@ std::optional<XmlTag> next_tag(TetScanner& in) {
     return tag;
   }
   return std::nullopt;
+}
+
+std::string_view text_before_tag(const TetScanner& in) {
+  const std::string_view rest = in.text().substr(in.position());
+  return rest.substr(0, rest.find('<'));
+}
+
+std::size_t xml_line(const TetScanner& in) {
+  const std::string_view before = in.text().substr(0, in.position());
+  return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+}
+
+std::string unescaped_xml(std::string_view text) {
+  constexpr std::pair<std::string_view, char> kEntities[] = {
+      {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  std::string result;
+  while (!text.empty()) {
+    const auto* const entity = std::find_if(std::begin(kEntities), std::end(kEntities),
+                                            [&](const auto& known) { return text.starts_with(known.first); });
+    const bool known = entity != std::end(kEntities);
+    result += known ? entity->second : text.front();
+    text.remove_prefix(known ? entity->first.size() : 1);
+  }
+  return result;
 }
 
 std::string escaped_xml(std::string_view text) {

@@ -7,7 +7,7 @@
 namespace tetsoup::fuzz {
 
 void fuzz_one(Bytes bytes) {
-  constexpr unsigned kFormats = 5;
+  constexpr unsigned kFormats = 7;
   Choices choices(bytes);
   if (!choices.are_left()) return;
   const auto format = static_cast<SoupFormat>(choices.below(kFormats));

@@ -2,7 +2,7 @@
 import type { Catalog } from '../core/protocol';
 import { el, icon } from './dom';
 
-export const kAccepted = '.obj,.stl,.ply,.off,.glb,.gltf';
+export const kAccepted = '.obj,.stl,.ply,.off,.glb,.gltf,.3mf,.dae';
 
 export function emptyState(catalog: Catalog | null, open: () => void, sample: (name: string) => void, robots: () => void): HTMLElement {
   const samples = (catalog?.samples ?? []).map((s) =>
@@ -13,7 +13,7 @@ export function emptyState(catalog: Catalog | null, open: () => void, sample: (n
       el('p', {}, 'Holes, loose triangles and parts pushed into each other are fine. Everything happens in this page: nothing is uploaded.')),
     el('div', { class: 'drop' },
       el('button', { type: 'button', class: 'primary', onclick: open }, icon('open'), 'Open a model'),
-      el('span', { class: 'unit' }, 'or drop it here: OBJ, STL, PLY, OFF or GLB')),
+      el('span', { class: 'unit' }, 'or drop it here: OBJ, STL, PLY, OFF, GLB, 3MF or DAE')),
     catalog ? el('div', { class: 'triple' }, el('p', {}, 'Or try a sample'), el('div', { class: 'samples' }, ...samples))
       : el('p', { role: 'status' }, 'Loading the mesher …'),
     catalog && el('p', { class: 'watch-line' }, 'Or just watch', el('button', { type: 'button', id: 'watch', onclick: robots }, icon('play'), 'Four robots fall on a tree'))));

@@ -127,7 +127,7 @@ export function likeWhat(young: number): string {
 export function ofError(message: string, status: number): string {
   if (/memory|too many voxels|voxels fit/i.test(message)) return `Too many voxels for this page's memory. ${sentence(message)} Choose fewer voxels.`;
   if (status === 4) return 'The memory of this page is used up. Choose fewer voxels or tets, or reload the page.';
-  if (status === 2) return `This file cannot be read: ${message.trim().replace(/\.?$/, '.')} Export it again as OBJ, STL, PLY, OFF or GLB.`;
+  if (status === 2) return `This file cannot be read: ${message.trim().replace(/\.?$/, '.')} Export it again as OBJ, STL, PLY, OFF, GLB, 3MF or DAE.`;
   if (status === 5) return `Something went wrong inside tetsoup: ${sentence(message)} Reload the page; if it happens again, please report it.`;
   return sentence(message.replace(/^mesh\./, ''));
 }
