@@ -2,7 +2,7 @@
 # header it names.
 
 # The flow. A layer sees the public headers of itself and of what stands before it, and its own private headers.
-set(layers soup bodies distance pseudo_volume lattice smooth quality readiness embed regions simulate pipeline io scene report c)
+set(layers soup bodies distance pseudo_volume lattice smooth quality readiness embed regions simulate pipeline calibrate io scene report c)
 # Public headers of a layer that has several.
 set(io_headers tet_model engines animation)
 # Public headers without a layer; everybody sees them. They see each other.
