@@ -75,8 +75,10 @@ TEST(CInterface, a_soup_is_told_by_its_bytes_and_refused_with_its_name) {
   const std::string wrong = "v 0 0 nonsense\n";
   EXPECT_EQ(tetsoup_soup_parse(wrong.data(), wrong.size(), "wrong.obj", &soup), TETSOUP_IO_ERROR);
   EXPECT_TRUE(error_tells("wrong.obj, line 1"));
-  EXPECT_EQ(tetsoup_soup_parse(wrong.data(), wrong.size(), "wrong.xyz", &soup), TETSOUP_IO_ERROR);
+  EXPECT_EQ(tetsoup_soup_parse(wrong.data(), wrong.size(), "wrong.foo", &soup), TETSOUP_IO_ERROR);
   EXPECT_TRUE(error_tells(".obj .stl"));
+  EXPECT_EQ(tetsoup_soup_parse(wrong.data(), wrong.size(), "points.xyz", &soup), TETSOUP_IO_ERROR);
+  EXPECT_TRUE(error_tells("points, not triangles"));
   EXPECT_EQ(tetsoup_soup_parse(nullptr, 0, "empty.obj", &soup), TETSOUP_IO_ERROR);
   EXPECT_TRUE(error_tells("empty.obj: is empty"));
 }
