@@ -76,8 +76,8 @@ int32_t tetsoup_thread_count(void);
 tetsoup_status tetsoup_sample_list(const char** json);
 /* `damage`: share of the triangles removed at random, [0, 1). */
 tetsoup_status tetsoup_soup_sample(const char* name, double damage, uint32_t seed, tetsoup_soup** soup);
-/* Bytes of an OBJ, STL, PLY, OFF, GLB, 3MF or Collada file; which, is told by content where that is certain, else by the name's
- * extension. Anything that parses is taken, NaN and wild indices too: they are counted in the report. */
+/* Bytes of an OBJ, STL, PLY, OFF, GLB, 3MF or Collada file; which, is told by content where that is certain, else by
+ * the name's extension. Anything that parses is taken, NaN and wild indices too: they are counted in the report. */
 tetsoup_status tetsoup_soup_parse(const void* bytes, size_t size, const char* name, tetsoup_soup** soup);
 /* Any triangles: xyz of the vertices, three indices a triangle. */
 tetsoup_status tetsoup_soup_create(const float* vertices, size_t vertex_count, const uint32_t* triangles,
