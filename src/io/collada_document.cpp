@@ -239,7 +239,7 @@ class Reader {
       const char* const begin = at;
       double value = 0;
       if (!parse_number(at, end, value) || (at != end && static_cast<unsigned char>(*at) > ' ')) {
-        const std::string_view rest(begin, end);
+        const std::string_view rest(begin, static_cast<std::size_t>(end - begin));
         fail("expected a number, found " + in_quotes(rest.substr(0, std::min(rest.find_first_of(" \t\r\n"), kShown))));
       }
       result.push_back(value);

@@ -9,6 +9,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tetsoup::kernel::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+#if HWY_HAVE_FLOAT64  // vectors of WebAssembly have none
 using Doubles = hn::ScalableTag<double>;
 
 /// Rows of kVectors vectors from `c` on, kColumns columns: held in registers over the whole depth.
@@ -31,14 +32,17 @@ HWY_INLINE void subtract_tile(double* c, std::size_t c_stride, const double* a, 
   for (std::size_t j = 0; j < kColumns; ++j)
     for (std::size_t v = 0; v < kVectors; ++v) hn::StoreU(sums[j][v], d, c + j * c_stride + v * lanes);
 }
+#endif
 
 template <std::size_t kColumns>
 HWY_INLINE void subtract_columns(double* c, std::size_t c_stride, std::size_t rows, const double* a,
                                  std::size_t a_stride, const DenseView& b, std::size_t depth) {
-  const std::size_t lanes = hn::Lanes(Doubles());
   std::size_t i = 0;
+#if HWY_HAVE_FLOAT64
+  const std::size_t lanes = hn::Lanes(Doubles());
   for (; i + 2 * lanes <= rows; i += 2 * lanes) subtract_tile<2, kColumns>(c + i, c_stride, a + i, a_stride, b, depth);
   for (; i + lanes <= rows; i += lanes) subtract_tile<1, kColumns>(c + i, c_stride, a + i, a_stride, b, depth);
+#endif
   for (; i < rows; ++i)
     for (std::size_t j = 0; j < kColumns; ++j) {
       double sum = c[i + j * c_stride];
