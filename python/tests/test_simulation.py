@@ -308,7 +308,7 @@ def test_simulations_run_in_parallel_but_one_lets_a_single_thread_in(torus):
     refused, done = [], threading.Event()
 
     def work():
-        busy.step(1)
+        busy.step(FRAME)
         done.set()
 
     thread = threading.Thread(target=work)
@@ -321,7 +321,7 @@ def test_simulations_run_in_parallel_but_one_lets_a_single_thread_in(torus):
             refused.append(str(error))
     thread.join()
     assert any("is at work" in text for text in refused)
-    assert busy.time == 1
+    assert busy.time == FRAME
 
 
 def interrupted(program: str) -> tuple[str, str]:
