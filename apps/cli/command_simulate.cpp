@@ -124,7 +124,7 @@ void add_scene_flags(CLI::App& app, SimulateOptions& options) {
   add_flag(
       app, "--substeps", "N",
       [&options](const std::string& text) { options.substeps = parse_whole("--substeps", text, kSubsteps); },
-      "Substeps of each 1/60 s, at least: more are stiffer and slower\n (what the scene says)")
+      "Substeps of each 1/60 s, at least: more are stiffer and slower\n(what the scene says)")
       ->group(kGroup);
   const auto read_solver = [&options](const std::string& text) {
     if (text != "implicit" && text != "potentials")

@@ -35,6 +35,21 @@ inline double signed_volume(const TetCorners& p) {
   return signed_volume(p[0], p[1], p[2], p[3]);
 }
 
+/// Of the face opposite a corner, inwards, as long as twice its area.
+inline Vec3d inward_normal(const TetCorners& p, std::size_t corner) {
+  const auto& f = kTetFaces[corner];
+  const Vec3d a = p[static_cast<std::size_t>(f[0])];
+  return cross(p[static_cast<std::size_t>(f[2])] - a, p[static_cast<std::size_t>(f[1])] - a);
+}
+
+/// Gradients of the barycentric coordinates of a tet of positive volume.
+inline std::array<Vec3d, 4> barycentric_gradients(const TetCorners& p) {
+  const double scale = 1 / (6 * signed_volume(p));
+  std::array<Vec3d, 4> g;
+  for (std::size_t i = 0; i < 4; ++i) g[i] = inward_normal(p, i) * scale;
+  return g;
+}
+
 /// Barycentric weights of a point, sum 1; not finite where the tet is flat.
 inline std::array<double, 4> barycentric(const TetCorners& p, const Vec3d& point) {
   const Vec3d e1 = p[1] - p[0], e2 = p[2] - p[0], e3 = p[3] - p[0], x = point - p[0];

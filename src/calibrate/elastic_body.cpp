@@ -11,18 +11,6 @@ namespace {
 
 constexpr std::int64_t kRowGrain = 128;  ///< Vertices a chunk: well under a millisecond.
 
-ElasticTet element_of(const TetCorners& p) {
-  const Vec3d e1 = p[1] - p[0], e2 = p[2] - p[0], e3 = p[3] - p[0];
-  const double six_volumes = dot(cross(e1, e2), e3), inverse = 1 / six_volumes;
-  ElasticTet tet;
-  tet.gradients[1] = cross(e2, e3) * inverse;
-  tet.gradients[2] = cross(e3, e1) * inverse;
-  tet.gradients[3] = cross(e1, e2) * inverse;
-  tet.gradients[0] = Vec3d{} - tet.gradients[1] - tet.gradients[2] - tet.gradients[3];
-  tet.volume = six_volumes / 6;
-  return tet;
-}
-
 std::array<double, 3> entries(const Vec3d& v) {
   return {v.x, v.y, v.z};
 }
@@ -54,8 +42,10 @@ LameConstants lame_constants(double poisson) {
 
 ElasticBody::ElasticBody(std::vector<Vec3d> points, std::vector<Tet> tets, double poisson)
     : points_(std::move(points)), tets_(std::move(tets)), lame_(lame_constants(poisson)) {
-  for (const Tet& tet : tets_)
-    elements_.push_back(element_of({points_[tet[0]], points_[tet[1]], points_[tet[2]], points_[tet[3]]}));
+  for (const Tet& tet : tets_) {
+    const TetCorners p{points_[tet[0]], points_[tet[1]], points_[tet[2]], points_[tet[3]]};
+    elements_.push_back({barycentric_gradients(p), signed_volume(p)});
+  }
   neighbours_ = find_neighbours(points_.size(), tets_);
   first_.push_back(0);
   for (std::size_t v = 0; v < points_.size(); ++v) first_.push_back(first_.back() + neighbours_[v].size());

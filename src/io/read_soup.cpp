@@ -7,6 +7,7 @@
 #include <memory>
 #include <system_error>
 
+#include "io/file_names.h"
 #include "io/soup_readers.h"
 #include "tetsoup/error.h"
 #include "tetsoup/io.h"
@@ -65,12 +66,6 @@ std::optional<SoupFormat> format_of_content(std::span<const std::byte> bytes) {
   if (is_off(bytes)) return SoupFormat::Off;
   if (is_stl(bytes)) return SoupFormat::Stl;
   return {};
-}
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
-  return extension;
 }
 
 std::optional<SoupFormat> format_of_extension(const std::filesystem::path& path) {

@@ -198,8 +198,9 @@ bool Copies::mark_scraps(Unions& lots) {
   }
   for (std::size_t t = 0; t < candidates_.kept.size(); ++t) {
     if (!candidates_.kept[t] || pieces_.count(t) < 2) continue;
-    for (const std::uint32_t a : of(t))
-      for (const std::uint32_t b : of(t))
+    const std::vector<std::uint32_t> copies = of(t);
+    for (const std::uint32_t a : copies)
+      for (const std::uint32_t b : copies)
         if (a < b && are_scraps(a, b)) merge(a, b);
   }
   return any;

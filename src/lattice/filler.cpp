@@ -93,8 +93,9 @@ Filler::Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeO
       table_(lattice_table(options.kind)),
       has_volume_(find_volume()),
       body_(find_body()),
-      parts_(body_, watch),
-      blocks_(body_, watch) {}
+      blocks_(body_, watch) {
+  if (options.separate == Separate::Apart) parts_.emplace(body_, watch);
+}
 
 bool Filler::find_volume() const {
   const PseudoVolumeReport& report = volume_.report;
@@ -142,7 +143,7 @@ void Filler::carve_cover(Fill& fill) {
   if (options_.separate == Separate::Apart && !fill.by_soup) {
     if (options_.thin == Thin::Keep) trim_slivers(candidates, options_.rho_min, body_, watch_);
     const double rho_min = options_.thin == Thin::Keep ? 0 : options_.rho_min;
-    const Separated apart = separate(candidates, body_, parts_, rho_min, watch_);
+    const Separated apart = separate(candidates, body_, *parts_, rho_min, watch_);
     fill.mended.doubled_tets = apart.tets;
     fill.mended.parted_vertices = apart.vertices;
   }

@@ -61,9 +61,9 @@ class Filler {
   const GridFrame& grid_;
   const LatticeTable& table_;
   bool has_volume_;
-  BitGrid body_;      ///< What is to be covered.
-  VoxelParts parts_;  ///< Of the body.
+  BitGrid body_;  ///< What is to be covered.
   InsideBlocks blocks_;
+  std::optional<VoxelParts> parts_;  ///< Of the body, where parts are kept apart.
   int fills_ = 0;
 };
 

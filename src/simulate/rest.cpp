@@ -88,13 +88,6 @@ double share_of(double damping_time, double h) {
   return damping_time / (damping_time + h);
 }
 
-std::array<Vec3d, 4> barycentric_gradients(const TetCorners& p) {
-  const double scale = 1 / (6 * signed_volume(p));
-  std::array<Vec3d, 4> g;
-  for (std::size_t i = 0; i < 4; ++i) g[i] = inward_normal(p, i) * scale;
-  return g;
-}
-
 std::vector<Piece> split_pieces(const TetMesh& mesh, double scale) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   Unions unions(mesh.vertices.size());

@@ -66,16 +66,6 @@ double share_of(double damping_time, double h);
 /// Makes the batches' constants for substeps of h.
 void prepare(Rest& rest, double h);
 
-/// Of the face opposite a corner, inwards, as long as twice its area.
-inline Vec3d inward_normal(const TetCorners& p, std::size_t corner) {
-  const auto& f = kTetFaces[corner];
-  const Vec3d a = p[static_cast<std::size_t>(f[0])];
-  return cross(p[static_cast<std::size_t>(f[2])] - a, p[static_cast<std::size_t>(f[1])] - a);
-}
-
-/// Gradients of the barycentric coordinates of a tet of positive volume.
-std::array<Vec3d, 4> barycentric_gradients(const TetCorners& p);
-
 inline TetCorners corners_at(const std::vector<Vec3d>& places, const Tet& tet) {
   return {places[tet[0]], places[tet[1]], places[tet[2]], places[tet[3]]};
 }
