@@ -12,7 +12,7 @@ set(common_folders base kernel)
 # Each third-party library of the core lives in one place.
 set(tbb_home "^src/base/parallel\\.(h|cpp)$")
 set(highway_home "^(src/kernel/|bench/bench_kernels\\.cpp$)")
-set(eigen_home "^src/(smooth/|simulate/held_factor|io/animation/symmetric_eigen)")
+set(eigen_home "^src/(base/symmetric_eigen|smooth/|simulate/held_factor)")
 
 # include_complaint(out path quote header): why the file `path` (relative to the root) may not include `header`, which
 # it names in `quote`, one of "\"" and "<"; empty if it may.

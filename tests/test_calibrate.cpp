@@ -7,7 +7,7 @@
 
 #include "calibrate/modes.h"
 #include "calibrate/scale_fit.h"
-#include "calibrate/symmetric_eigen.h"
+#include "base/symmetric_eigen.h"
 #include "kernel/dense_product.h"
 #include "kernel/targets.h"
 #include "lattice_shapes.h"

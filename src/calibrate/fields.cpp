@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "calibrate/symmetric_eigen.h"
+#include "base/symmetric_eigen.h"
 #include "kernel/dense_product.h"
 
 namespace tetsoup {

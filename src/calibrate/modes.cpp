@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/vec.h"
-#include "calibrate/symmetric_eigen.h"
+#include "base/symmetric_eigen.h"
 
 namespace tetsoup {
 

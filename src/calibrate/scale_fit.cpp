@@ -7,7 +7,7 @@
 
 #include "base/elementary.h"
 #include "base/tet_faces.h"
-#include "calibrate/symmetric_eigen.h"
+#include "base/symmetric_eigen.h"
 
 namespace tetsoup {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/tet_geometry.h"
-#include "calibrate/symmetric_eigen.h"
+#include "base/symmetric_eigen.h"
 #include "tetsoup/embed.h"
 
 namespace tetsoup {

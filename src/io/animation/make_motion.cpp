@@ -6,7 +6,7 @@
 
 #include "base/tet_faces.h"
 #include "base/vec.h"
-#include "io/animation/symmetric_eigen.h"
+#include "base/symmetric_eigen.h"
 
 namespace tetsoup::animation {
 namespace {
@@ -33,12 +33,12 @@ std::array<double, 4> best_rotation(const std::vector<Vec3d>& from, const std::v
     y += to[i] * from[i].y;
     z += to[i] * from[i].z;
   }
-  const EigenSystem system = symmetric_eigen({x.x + y.y + z.z, y.z - z.y, z.x - x.z, x.y - y.x,    //
-                                              y.z - z.y, x.x - y.y - z.z, x.y + y.x, z.x + x.z,    //
-                                              z.x - x.z, x.y + y.x, -x.x + y.y - z.z, y.z + z.y,   //
-                                              x.y - y.x, z.x + x.z, y.z + z.y, -x.x - y.y + z.z},  //
-                                             4);
-  const std::vector<double>& q = system.vectors;  // w, x, y, z
+  const SymmetricEigen eigen = symmetric_eigen({x.x + y.y + z.z, y.z - z.y, z.x - x.z, x.y - y.x,    //
+                                                y.z - z.y, x.x - y.y - z.z, x.y + y.x, z.x + x.z,    //
+                                                z.x - x.z, x.y + y.x, -x.x + y.y - z.z, y.z + z.y,   //
+                                                x.y - y.x, z.x + x.z, y.z + z.y, -x.x - y.y + z.z},  //
+                                               4);
+  const double* const q = &eigen.vectors[12];  // of the largest: w, x, y, z
   return {q[1], q[2], q[3], q[0]};
 }
 
@@ -69,6 +69,14 @@ std::vector<double> covariance(const std::vector<BodyTrack>& tracks, std::size_t
         for (std::size_t j = 0; j < key.weights.size(); ++j)
           sums[i * n + j] += double{key.weights[i]} * double{key.weights[j]};
   return sums;
+}
+
+/// Along which the weights vary, one a row, the most first.
+std::vector<double> axes_of(const std::vector<BodyTrack>& tracks, std::size_t n) {
+  const SymmetricEigen eigen = symmetric_eigen(covariance(tracks, n), n);
+  std::vector<double> axes;
+  for (std::size_t k = n; k-- > 0;) axes.insert(axes.end(), &eigen.vectors[k * n], &eigen.vectors[k * n] + n);
+  return axes;
 }
 
 /// Weights of the shapes that `vectors` combine from the old ones.
@@ -201,8 +209,8 @@ void MakeMotion::add(std::size_t body, std::span<const Vec3> positions) {
 
 ReducedMotion MakeMotion::reduce(std::size_t max_shapes) {
   const std::size_t n = basis_.size();
-  const EigenSystem system = symmetric_eigen(covariance(tracks_, n), n);
-  turn_weights(tracks_, system.vectors, n);
+  const std::vector<double> axes = axes_of(tracks_, n);
+  turn_weights(tracks_, axes, n);
   const std::size_t count = std::min(shapes_needed(tracks_, n, tolerance_squared()), max_shapes);
   ReducedMotion motion;
   const std::vector<double> largest = scale_weights(tracks_, count);
@@ -214,7 +222,7 @@ ReducedMotion MakeMotion::reduce(std::size_t max_shapes) {
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<Vec3d> sums(used_.size());
     for (std::size_t i = 0; i < n; ++i) {
-      const double share = system.vectors[k * n + i] * largest[k];
+      const double share = axes[k * n + i] * largest[k];
       for (std::size_t v = 0; v < used_.size(); ++v)
         sums[v] += Vec3d{basis_[i][3 * v], basis_[i][3 * v + 1], basis_[i][3 * v + 2]} * share;
     }
