@@ -2,9 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 
 #include "angles.h"
+#include "arguments.h"
+#include "calibration.h"
 #include "commands.h"
 #include "files.h"
 #include "interrupt.h"
@@ -36,6 +40,9 @@ struct MeshCommand {
   TetCount tet_count = TetCount::Given;
   Material material;
   bool material_is_default = true;
+  std::optional<double> mass;  ///< kg, instead of a density.
+  bool calibrate = false;
+  std::optional<double> poisson;  ///< Where it was given.
   RunOptions run;
 };
 
@@ -49,6 +56,7 @@ constexpr const char* kExamples =
     "  tetsoup mesh bunny.obj -o bunny.usda --enclose           the model itself inside the tets, to be moved by them\n"
     "  tetsoup mesh lamp.glb -o lamp --for calculix --regions material --region brass=8500,1e11,0.34 --pin-below y:0\n"
     "  tetsoup mesh part.stl -o part.inp --format inp --metres-per-unit 0.001\n"
+    "  tetsoup mesh horse.obj -o horse --for newton --tets 500 --calibrate   so few tets that move like 40,000\n"
     "  tetsoup mesh part.stl -o part.msh --voxels 256 --preview part.png --json part.json\n"
     "\n"
     "Exit codes: 0 done, 1 internal error or out of memory, 2 wrong usage or option, 3 a file cannot be read or\n"
@@ -187,6 +195,27 @@ std::string mesh_as_asked(const MeshCommand& command, Pipeline& pipeline, Progre
   return {};
 }
 
+void calibrate(const TriangleSoup& soup, std::optional<double> poisson, MeshRun& run, ProgressBar& bar) {
+  const Stopwatch watch;
+  run.calibration = calibrate_model(run.model, soup, run.options, poisson, bar);
+  run.readiness.mass = mass_of(run.model);
+  // A tet's own bound goes with the root of density over stiffness.
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < run.model.stiffness_scale.size(); ++t)
+    least = std::min<double>(least, run.model.density_scale[t] / run.model.stiffness_scale[t]);
+  run.readiness.stable_time_step *= std::sqrt(least);
+  run.seconds.calibrate = watch.seconds();
+}
+
+/// All densities times what gives the body that mass.
+void give_mass(double mass, MeshRun& run) {
+  const double times = mass / mass_of(run.model);
+  for (Region& region : run.model.regions) region.material.density *= times;
+  run.material.density *= times;
+  run.readiness.mass = mass;
+  run.readiness.stable_time_step *= std::sqrt(times);
+}
+
 void run_mesh(MeshCommand& command) {
   const Stopwatch watch;
   check_input(command.input);
@@ -212,6 +241,8 @@ void run_mesh(MeshCommand& command) {
     measure(run, command.json.has_value() || command.page.has_value());
   }
   run.model = make_model(run, command.model, std::move(surface), bar);
+  if (command.calibrate) calibrate(soup, command.poisson, run, bar);
+  if (command.mass) give_mass(*command.mass, run);
   run.recentred = command.model.recentre;
   if (run.recentred) recentre(run.model);
   bar.show("write");
@@ -261,6 +292,13 @@ void add_mesh_command(CLI::App& app) {
   add_model_flags(*mesh, command->model);
   add_material_flags(*mesh, command->material);
   add_flag(
+      *mesh, "--mass", "KG",
+      [command](const std::string& text) { command->mass = parse_number("--mass", text, kPositive); },
+      "Mass of the body, instead of a density")
+      ->group(kMaterialGroup)
+      ->excludes("--density");
+  add_calibrate_flag(*mesh, command->calibrate);
+  add_flag(
       *mesh, "--json", "FILE|-", [command](const std::string& text) { command->json = text; },
       "Write a report for scripts; - is standard output")
       ->group("Reports");
@@ -274,7 +312,10 @@ void add_mesh_command(CLI::App& app) {
       ->group("Reports");
   add_run_flags(*mesh, command->run);
   mesh->callback([command, mesh] {
-    command->material_is_default = mesh->count("--density") + mesh->count("--young") + mesh->count("--poisson") == 0;
+    command->material_is_default = true;
+    for (const char* flag : {"--density", "--mass", "--young", "--poisson"})
+      if (mesh->count(flag) > 0) command->material_is_default = false;
+    if (mesh->count("--poisson") > 0) command->poisson = command->material.poisson;
     run_mesh(*command);
   });
 }

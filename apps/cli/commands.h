@@ -19,6 +19,7 @@ struct CancelledMidway : std::runtime_error {
 // Each adds its command with flags and help; the work is done when the command line has been read as a whole.
 void add_mesh_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
+void add_calibrate_command(CLI::App& app);
 void add_field_command(CLI::App& app);
 void add_sample_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);

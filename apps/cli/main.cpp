@@ -102,6 +102,7 @@ int run(int argc, char** argv) {
   app.set_help_flag("-h,--help", "Print this help and exit");
   add_mesh_command(app);
   add_inspect_command(app);
+  add_calibrate_command(app);
   add_field_command(app);
   add_sample_command(app);
   add_simulate_command(app);

@@ -89,6 +89,8 @@ void write_planned(const PlannedMesh& planned, const TetModel& model, bool mater
   const auto written = planned.engine ? write_for_engine(*planned.engine, planned.path, model, material_is_default)
                                       : write_tets(planned.path, model, planned.format);
   run.outputs.insert(run.outputs.end(), written.begin(), written.end());
+  run.calibrated.push_back(
+      {written.front(), planned.engine ? calibration_of(*planned.engine) : calibration_of(planned.format)});
   if (!planned.engine) return;
   run.engine = planned.engine->name;
   run.next_step = engine_usage(*planned.engine, planned.path);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tetsoup/calibrate.h"
+#include "tetsoup/io.h"
 #include "tetsoup/pipeline.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/readiness.h"
@@ -17,10 +19,16 @@ namespace tetsoup::cli {
 /// Wall seconds per step.
 struct Timings {
   double read = 0, soup = 0, distance = 0, pseudo_volume = 0, lattice = 0, smooth = 0;
-  double quality = 0;  ///< Measuring the result.
-  double preview = 0;  ///< Drawing and writing the picture.
-  double write = 0;    ///< Writing the mesh files.
+  double quality = 0;    ///< Measuring the result.
+  double calibrate = 0;  ///< The reference included.
+  double preview = 0;    ///< Drawing and writing the picture.
+  double write = 0;      ///< Writing the mesh files.
   double total = 0;
+};
+
+struct CalibratedFile {
+  std::filesystem::path path;
+  CalibrationForm holds;
 };
 
 struct MeshRun {
@@ -39,7 +47,9 @@ struct MeshRun {
   TetModel model;          ///< What is written.
   bool recentred = false;  ///< Without the soup's origin.
   Readiness readiness;
-  std::vector<std::string> notes;  ///< For the user.
+  std::optional<Calibration> calibration;  ///< Where it was asked for,
+  std::vector<CalibratedFile> calibrated;  ///< and what became of it in each mesh file.
+  std::vector<std::string> notes;          ///< For the user.
   Timings seconds;
 };
 

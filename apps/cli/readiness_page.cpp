@@ -21,7 +21,7 @@ void add_material_flags(CLI::App& app, Material& material) {
     add_flag(
         app, flag, value,
         [flag, &target, range](const std::string& given) { target = parse_number(flag, given, range); }, text)
-        ->group("Material (for mass and time step in the report, and for files that name one)");
+        ->group(kMaterialGroup);
   };
   add("--density", "KG/M3", material.density, kPositive, "Density (1000)");
   add("--young", "PA", material.young, kPositive, "Young's modulus (1e5, a soft rubber)");

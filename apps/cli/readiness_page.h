@@ -8,6 +8,10 @@
 
 namespace tetsoup::cli {
 
+/// What --help lists the material's flags under.
+inline constexpr const char* kMaterialGroup =
+    "Material (for mass and time step in the report, and for files that name one)";
+
 void add_material_flags(CLI::App& app, Material& material);
 
 /// One line a check, then mass and time step.

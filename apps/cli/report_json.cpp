@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "angles.h"
+#include "calibration.h"
 #include "tetsoup/report.h"
 
 namespace tetsoup::cli {
@@ -18,11 +19,20 @@ Json part(const Parts&... parts) {
 }
 
 Json seconds_json(const Timings& seconds) {
-  return {{"read", seconds.read},         {"soup", seconds.soup},
-          {"distance", seconds.distance}, {"pseudo_volume", seconds.pseudo_volume},
-          {"lattice", seconds.lattice},   {"smooth", seconds.smooth},
-          {"quality", seconds.quality},   {"preview", seconds.preview},
-          {"write", seconds.write},       {"total", seconds.total}};
+  return {{"read", seconds.read},           {"soup", seconds.soup},
+          {"distance", seconds.distance},   {"pseudo_volume", seconds.pseudo_volume},
+          {"lattice", seconds.lattice},     {"smooth", seconds.smooth},
+          {"quality", seconds.quality},     {"preview", seconds.preview},
+          {"calibrate", seconds.calibrate}, {"write", seconds.write},
+          {"total", seconds.total}};
+}
+
+Json calibration_json(const MeshRun& run) {
+  if (!run.calibration) return {};
+  Json json = part(*run.calibration);
+  for (const CalibratedFile& file : run.calibrated)
+    json["files"].push_back({{"file", file.path.string()}, {"holds", name_of(file.holds)}});
+  return json;
 }
 
 /// File names may hold any bytes, JSON only UTF-8: what is not is shown as U+FFFD.
@@ -75,6 +85,7 @@ std::string mesh_report_json(const MeshRun& run) {
                   {"embedding", run.model.embedding.tets.empty() ? Json() : part(run.model.embedding.report)},
                   {"regions", Json::parse(regions_json(run.model))},
                   {"pins", Json::parse(pins_json(run.model))},
+                  {"calibration", calibration_json(run)},
                   {"readiness", part(run.readiness, run.material)}});
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "angles.h"
+#include "calibration.h"
 #include "mesh_model.h"
 #include "readiness_page.h"
 #include "report_json.h"
@@ -107,8 +108,8 @@ std::string describe_seconds(const Timings& seconds) {
       {"read", seconds.read},         {"clean", seconds.soup},
       {"distance", seconds.distance}, {"pseudo volume", seconds.pseudo_volume},
       {"lattice", seconds.lattice},   {"smooth", seconds.smooth},
-      {"measure", seconds.quality},   {"preview", seconds.preview},
-      {"write", seconds.write}};
+      {"measure", seconds.quality},   {"calibrate", seconds.calibrate},
+      {"preview", seconds.preview},   {"write", seconds.write}};
   const char* comma = "";
   for (const auto& [name, value] : steps) {
     if (value == 0) continue;
@@ -170,6 +171,7 @@ std::string describe_run(const MeshRun& run) {
                      describe_lattice(pipeline.lattice().report, pipeline.smooth().report) + describe_result(run);
   for (const std::string& note : run.notes) text += "Note: " + note + "\n";
   text += describe_model(run.model);
+  if (run.calibration) text += describe_calibration(*run.calibration, run.calibrated);
   text += describe_readiness(run.readiness, run.material);
   text += describe_seconds(run.seconds);
   for (const auto& path : run.outputs) text += "Wrote " + path.string() + "\n";

@@ -34,6 +34,9 @@ const Engine& find_engine(std::string_view name);
 /// @throws InvalidInput  if the path has another extension than the engine's.
 std::vector<std::filesystem::path> engine_files(const Engine& engine, const std::filesystem::path& path);
 
+/// What an engine is told of a calibrated model, in its mesh or in its scene.
+CalibrationForm calibration_of(const Engine& engine);
+
 /// The engine's usage with the names of the files that engine_files() gives.
 std::string engine_usage(const Engine& engine, const std::filesystem::path& path);
 

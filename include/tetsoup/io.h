@@ -121,6 +121,15 @@ TetFormat tet_format_of(const std::filesystem::path& path);
 /// All files that write_tets() may write: three of TetGen's, Vega's list of pins beside its mesh.
 std::vector<std::filesystem::path> tet_files(const std::filesystem::path& path, TetFormat format);
 
+/// How much of a calibrated model (calibrate.h) a file holds.
+enum class CalibrationForm {
+  PerTet,     ///< Every tet's stiffness and density.
+  Steps,      ///< Up to eight materials a region, by steps of the logarithm of stiffness.
+  OneFactor,  ///< One material a region or for all: the one factor of stiffness, and the mean density.
+  None        ///< No material at all.
+};
+CalibrationForm calibration_of(TetFormat format);
+
 /// Writes a mesh; format by extension unless given. Atomic: the file (or files) appear whole or not at all, and an
 /// existing one stays as it was if anything fails.
 /// @return  The files written.

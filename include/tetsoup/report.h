@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tetsoup/calibrate.h"
 #include "tetsoup/pipeline.h"
 #include "tetsoup/quality.h"
 #include "tetsoup/readiness.h"
@@ -23,6 +24,7 @@ std::string to_json(const SmoothReport& report);
 std::string to_json(const Quality& quality);
 std::string to_json(const Fidelity& fidelity);
 std::string to_json(const Readiness& readiness, const Material& material);
+std::string to_json(const Calibration& calibration);
 std::string to_json(const EmbedReport& report);
 std::string to_json(const MeshOptions& options);
 std::string to_json(const SimulationReport& report);

@@ -27,13 +27,19 @@ struct TetModel {
   std::vector<Region> regions{{}};         ///< At least one.
   std::vector<std::uint32_t> tet_regions;  ///< Region of every tet; empty: all are of the first.
   std::vector<VertexSet> pins;             ///< Vertices to be held.
-  RenderMesh render;                       ///< The input's own surface,
-  Embedding embedding;                     ///< and where its vertices lie in the mesh.
-  UpAxis up = UpAxis::Z;                   ///< Of the model, for the scene it is placed in.
+  std::vector<float> stiffness_scale;  ///< Young's modulus of every tet over its material's (calibrate.h); empty: 1.
+  std::vector<float> density_scale;    ///< Density likewise; empty: 1.
+  double stiffness_factor = 1;         ///< Instead of the former, for all tets, where a format takes one material.
+  RenderMesh render;                   ///< The input's own surface,
+  Embedding embedding;                 ///< and where its vertices lie in the mesh.
+  UpAxis up = UpAxis::Z;               ///< Of the model, for the scene it is placed in.
 };
 
 /// Leaves out what the vertices are counted from, so that the model lies around zero; its surface keeps its place in
 /// it.
 void recentre(TetModel& model);
+
+/// Mass in kg, with the densities of regions and the scales of tets.
+double mass_of(const TetModel& model);
 
 }  // namespace tetsoup

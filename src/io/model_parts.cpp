@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
+#include "base/elementary.h"
 #include "base/origin.h"
 #include "base/require.h"
+#include "base/tet_geometry.h"
 #include "base/tet_geometry.h"
 
 namespace tetsoup {
@@ -40,6 +43,16 @@ std::string lower(std::string text) {
 
 }  // namespace
 
+double mass_of(const TetModel& model) {
+  double mass = 0;
+  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
+    const Material& material = model.regions[region_of(model, t)].material;
+    mass += density_scale_of(model, t) * material.density * signed_volume(corners_of(model.mesh, model.mesh.tets[t])) *
+            elementary::cube(material.metres_per_unit);
+  }
+  return mass;
+}
+
 void require_valid(const TetModel& model) {
   const std::size_t vertices = model.mesh.vertices.size(), tets = model.mesh.tets.size();
   for (const Tet& tet : model.mesh.tets)
@@ -50,6 +63,11 @@ void require_valid(const TetModel& model) {
           model.tet_regions.size(), "0 or the number of tets");
   for (const std::uint32_t region : model.tet_regions)
     require(region < model.regions.size(), "region of a tet", region, "below the number of regions");
+  for (const auto* scales : {&model.stiffness_scale, &model.density_scale}) {
+    require(scales->empty() || scales->size() == tets, "number of tets with a scale", scales->size(),
+            "0 or the number of tets");
+    for (const float scale : *scales) require(scale > 0 && std::isfinite(scale), "scale of a tet", scale, "above 0");
+  }
   for (const VertexSet& pin : model.pins)
     for (const std::uint32_t vertex : pin.vertices)
       require(vertex < vertices, "pinned vertex", vertex, "below the number of vertices");

@@ -22,6 +22,12 @@ inline bool has_regions(const TetModel& model) {
 inline std::uint32_t region_of(const TetModel& model, std::size_t tet) {
   return model.tet_regions.empty() ? 0 : model.tet_regions[tet];
 }
+inline double stiffness_scale_of(const TetModel& model, std::size_t tet) {
+  return model.stiffness_scale.empty() ? 1.0 : model.stiffness_scale[tet];
+}
+inline double density_scale_of(const TetModel& model, std::size_t tet) {
+  return model.density_scale.empty() ? 1.0 : model.density_scale[tet];
+}
 /// Tets of every region, ascending; a region may have none.
 std::vector<std::vector<std::uint32_t>> tets_by_region(const TetModel& model);
 

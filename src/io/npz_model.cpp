@@ -81,13 +81,13 @@ void add_points(std::span<const Vec3> points, const Vec3d& origin, const Add& ad
 
 /// Of one material that gives the mesh its mass; the first region's where it has no volume.
 double mean_density(const TetModel& model) {
-  if (!has_regions(model)) return in_mesh_units(model.regions[0].material).density;
+  if (!has_regions(model) && model.density_scale.empty()) return in_mesh_units(model.regions[0].material).density;
   double mass = 0, volume = 0;
   for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
     const double v = signed_volume(corners_of(model.mesh, model.mesh.tets[t]));
     if (!(v > 0)) continue;
     volume += v;
-    mass += v * in_mesh_units(model.regions[region_of(model, t)].material).density;
+    mass += v * density_scale_of(model, t) * in_mesh_units(model.regions[region_of(model, t)].material).density;
   }
   return volume > 0 ? mass / volume : in_mesh_units(model.regions[0].material).density;
 }
@@ -96,7 +96,7 @@ void add_materials(NpzWriter& npz, const TetModel& model) {
   std::vector<float> mu, lambda;
   for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
     const Material material = in_mesh_units(model.regions[region_of(model, t)].material);
-    const double e = material.young, nu = material.poisson;
+    const double e = stiffness_scale_of(model, t) * material.young, nu = material.poisson;
     mu.push_back(static_cast<float>(e / (2 * (1 + nu))));
     lambda.push_back(static_cast<float>(e * nu / ((1 + nu) * (1 - 2 * nu))));
   }
@@ -120,6 +120,14 @@ void add_regions(ExtraArrays& arrays, const TetModel& model) {
   arrays.add("tet_regions", Frequency::Tet, {regions.size()}, std::span<const std::int32_t>(regions));
   arrays.add("tet_densities", Frequency::Tet, {densities.size()}, std::span<const float>(densities));
   arrays.add_texts("region_names", names);
+}
+
+void add_scales(ExtraArrays& arrays, const TetModel& model) {
+  const auto add = [&](const std::string& name, const std::vector<float>& scales) {
+    if (!scales.empty()) arrays.add(name, Frequency::Tet, {scales.size()}, std::span<const float>(scales));
+  };
+  add("stiffness_scale", model.stiffness_scale);
+  add("density_scale", model.density_scale);
 }
 
 void add_pins(ExtraArrays& arrays, const TetModel& model) {
@@ -158,6 +166,7 @@ std::string npz_text(const TetModel& model) {
   add_materials(npz, model);
   ExtraArrays extra(npz);
   add_regions(extra, model);
+  add_scales(extra, model);
   add_pins(extra, model);
   add_embedding(extra, model);
   extra.finish();

@@ -72,7 +72,10 @@ std::string abaqus_text(const TetModel& model) {
   std::string text = text_for(mesh);
   LegalNames legal({"NALL", "EALL", "HULL"});
   const std::vector<std::string> regions = region_names(model, legal), pins = pin_names(model, legal);
-  text += "** tetsoup\n*NODE, NSET=NALL\n";
+  text += "** tetsoup\n";
+  if (model.stiffness_factor != 1)
+    text += "** Calibrated: moduli and densities in steps, with which these tets move as many would.\n";
+  text += "*NODE, NSET=NALL\n";
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3d v = placed(mesh.vertices[i], mesh.origin);
     append_row(text, i + 1, v.x, v.y, v.z);

@@ -118,6 +118,11 @@ std::string json_text(const TetModel& model) {
   append_array(text += next, "surface", boundary_triangles(model.mesh));
   append_regions(text += next, model);
   append_array(text += next, "tet_regions", model.tet_regions);
+  if (!model.stiffness_scale.empty()) {
+    append_member(text += next, "stiffness_factor", model.stiffness_factor);
+    append_array(text += next, "stiffness_scale", model.stiffness_scale);
+    append_array(text += next, "density_scale", model.density_scale);
+  }
   append_pins(text += next, model);
   if (!model.render.face_sizes.empty()) {
     append_key(text += next, "render");

@@ -30,7 +30,10 @@ void append_material(std::string& text, const std::string& name, const Material&
 std::string vega_text(const TetModel& model) {
   const TetMesh& mesh = model.mesh;
   std::string text = text_for(mesh);
-  text += "# tetsoup\n\n*VERTICES\n";
+  text += "# tetsoup\n";
+  if (model.stiffness_factor != 1)
+    text += "# Calibrated: moduli and densities in steps, with which these tets move as many would.\n";
+  text += "\n*VERTICES\n";
   append_line(text, mesh.vertices.size(), 3, 0, 0);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3d v = placed(mesh.vertices[i], mesh.origin);

@@ -1,6 +1,8 @@
 // Tet meshes for VTK: the legacy format and XML.
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/base64.h"
 #include "base/origin.h"
@@ -14,8 +16,16 @@ namespace tetsoup {
 
 namespace {
 
-void append_scalars(std::string& text, const std::string& name) {
-  text += "SCALARS " + name + " int 1\nLOOKUP_TABLE default\n";
+void append_scalars(std::string& text, const std::string& name, const std::string& type) {
+  text += "SCALARS " + name + " " + type + " 1\nLOOKUP_TABLE default\n";
+}
+
+/// What a calibrated model says of its tets, by name.
+std::vector<std::pair<std::string, const std::vector<float>*>> scale_arrays(const TetModel& model) {
+  std::vector<std::pair<std::string, const std::vector<float>*>> arrays;
+  if (!model.stiffness_scale.empty()) arrays.emplace_back("stiffness_scale", &model.stiffness_scale);
+  if (!model.density_scale.empty()) arrays.emplace_back("density_scale", &model.density_scale);
+  return arrays;
 }
 
 /// Floats are too coarse then.
@@ -37,18 +47,25 @@ std::vector<std::string> pin_array_names(const TetModel& model) {
 }
 
 void append_data(std::string& text, const TetModel& model) {
-  if (has_regions(model)) {
+  const bool scaled = !model.stiffness_scale.empty() || !model.density_scale.empty();
+  if (has_regions(model) || scaled) {
     text += "CELL_DATA ";
     append_line(text, model.mesh.tets.size());
-    append_scalars(text, "region");
+  }
+  if (has_regions(model)) {
+    append_scalars(text, "region", "int");
     for (std::size_t i = 0; i < model.mesh.tets.size(); ++i) append_line(text, region_of(model, i));
+  }
+  for (const auto& [name, scales] : scale_arrays(model)) {
+    append_scalars(text, name, "float");
+    for (const float scale : *scales) append_line(text, scale);
   }
   if (model.pins.empty()) return;
   text += "POINT_DATA ";
   append_line(text, model.mesh.vertices.size());
   const std::vector<std::string> names = pin_array_names(model);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    append_scalars(text, names[i]);
+    append_scalars(text, names[i], "int");
     for (const std::uint8_t is_member : members(model.pins[i], model.mesh.vertices.size()))
       append_line(text, static_cast<int>(is_member));
   }
@@ -76,12 +93,20 @@ void append_xml_data(std::string& text, const TetModel& model) {
     }
     text += "      </PointData>\n";
   }
-  if (!has_regions(model)) return;
-  std::string regions;
-  for (std::size_t i = 0; i < model.mesh.tets.size(); ++i)
-    append_raw(regions, static_cast<std::int32_t>(region_of(model, i)));
-  text += "      <CellData Scalars=\"region\">\n";
-  append_data_array(text, "type=\"Int32\" Name=\"region\"", regions);
+  const auto scales = scale_arrays(model);
+  if (!has_regions(model) && scales.empty()) return;
+  text += has_regions(model) ? "      <CellData Scalars=\"region\">\n" : "      <CellData>\n";
+  if (has_regions(model)) {
+    std::string regions;
+    for (std::size_t i = 0; i < model.mesh.tets.size(); ++i)
+      append_raw(regions, static_cast<std::int32_t>(region_of(model, i)));
+    append_data_array(text, "type=\"Int32\" Name=\"region\"", regions);
+  }
+  for (const auto& [name, values] : scales) {
+    std::string raw;
+    for (const float scale : *values) append_raw(raw, scale);
+    append_data_array(text, "type=\"Float32\" Name=\"" + name + '"', raw);
+  }
   text += "      </CellData>\n";
 }
 

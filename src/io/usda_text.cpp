@@ -108,6 +108,15 @@ void write_tet_mesh(UsdaWriter& usd, const TetModel& model, const std::string& m
   usd.close();
 }
 
+/// What the file says of itself.
+std::string description(const TetModel& model) {
+  std::string text = "Written by tetsoup";
+  if (model.stiffness_factor != 1)
+    text += "; calibrated: Young's modulus is " + real(model.stiffness_factor) +
+            " times that of the body that these few tets stand for, which are too stiff";
+  return text;
+}
+
 }  // namespace
 
 void write_usda_extent(UsdaWriter& usd, std::span<const Vec3> points) {
@@ -135,7 +144,7 @@ void write_usda_subset(UsdaWriter& usd, LegalNames& names, const std::string& na
 std::string usda_text(const TetModel& model) {
   LegalNames names;
   const std::string body = names.make(model.name, "body");
-  UsdaWriter usd({"defaultPrim = \"" + body + '"', "doc = \"Written by tetsoup\"", "kilogramsPerUnit = 1",
+  UsdaWriter usd({"defaultPrim = \"" + body + '"', "doc = " + usda_string(description(model)), "kilogramsPerUnit = 1",
                   "metersPerUnit = " + number(model.regions[0].material.metres_per_unit),
                   std::string("upAxis = ") + up_axis(model)});
   usd.open("Xform", body,

@@ -6,6 +6,7 @@
 
 #include "base/require.h"
 #include "io/atomic_file.h"
+#include "io/calibrated_model.h"
 #include "io/file_names.h"
 #include "io/model_parts.h"
 #include "io/tet_files.h"
@@ -90,7 +91,8 @@ std::vector<fs::path> write_together(const std::vector<NamedText>& files) {
 std::vector<fs::path> write_tets(const fs::path& path, const TetModel& model, std::optional<TetFormat> format) {
   require_valid(model);
   const TetFormat chosen = format ? *format : tet_format_of(path);
-  if (chosen != TetFormat::Surface) return write_together(tet_texts(path, model, chosen));
+  if (chosen != TetFormat::Surface)
+    return write_together(tet_texts(path, calibrated_as(calibration_of(chosen), model), chosen));
   write_surface(path, model.mesh.vertices, boundary_triangles(model.mesh), model.mesh.origin);
   return {path};
 }

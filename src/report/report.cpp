@@ -286,6 +286,26 @@ std::string to_json(const Readiness& readiness, const Material& material) {
                     {"metres_per_unit", material.metres_per_unit}}}});
 }
 
+std::string to_json(const Calibration& calibration) {
+  const CalibrateReport& report = calibration.report;
+  const auto error = [](const MotionError& e) {
+    return Json{{"frequencies_1_to_10", e.low}, {"frequencies_from_11", e.high}, {"compliance", e.compliance}};
+  };
+  return text_of({{"factor", calibration.factor},
+                  {"reference_tets", report.reference_tets},
+                  {"pieces", report.pieces},
+                  {"uncalibrated_pieces", report.uncalibrated},
+                  {"modes", report.modes},
+                  {"before", error(report.before)},
+                  {"one_factor", error(report.one)},
+                  {"after", error(report.after)},
+                  {"stiffness_scale", {report.least_stiffness, report.most_stiffness}},
+                  {"density_scale", {report.least_density, report.most_density}},
+                  {"mass_error", report.mass_error},
+                  {"centre_error", report.centre_error},
+                  {"inertia_error", report.inertia_error}});
+}
+
 std::string to_json(const EmbedReport& report) {
   return text_of({{"inside", report.inside},
                   {"outside", report.outside},

@@ -11,6 +11,7 @@
 #include "base/listing.h"
 #include "base/require.h"
 #include "base/vec.h"
+#include "io/calibrated_model.h"
 #include "io/engines/engine_table.h"
 #include "io/engines/scenes.h"
 #include "io/file_names.h"
@@ -115,6 +116,14 @@ std::vector<fs::path> engine_files(const Engine& engine, const fs::path& path) {
   return files;
 }
 
+CalibrationForm calibration_of(const Engine& engine) {
+  if (engine.name == "sofa") return CalibrationForm::PerTet;  // Its scene lists moduli; the mesh has no place for them.
+  // The other scenes take one material, but for those of the formats that hold some.
+  const CalibrationForm form = calibration_of(engine.format);
+  const bool of_mesh = form == CalibrationForm::Steps || engine.format == TetFormat::Npz;
+  return engine.scene_extension.empty() || of_mesh ? form : CalibrationForm::OneFactor;
+}
+
 std::string engine_usage(const Engine& engine, const fs::path& path) {
   const fs::path mesh = mesh_path(engine, path);
   std::string text = engine.usage;
@@ -127,7 +136,7 @@ std::string engine_usage(const Engine& engine, const fs::path& path) {
 std::vector<fs::path> write_for_engine(const Engine& engine, const fs::path& path, const TetModel& model,
                                        bool material_is_default) {
   require_valid(model);
-  const TetModel scaled = in_metres(model);
+  const TetModel scaled = calibrated_as(calibration_of(engine), in_metres(model));
   const fs::path mesh = mesh_path(engine, path);
   std::vector<NamedText> files = tet_texts(mesh, scaled, engine.format);
   if (!engine.scene_extension.empty())

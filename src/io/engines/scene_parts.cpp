@@ -69,7 +69,7 @@ Means means_of(const TetModel& model) {
     const Material& material = model.regions[region_of(model, i)].material;
     const double volume = signed_volume(corners_of(model.mesh, model.mesh.tets[i]));
     sum.volume += volume;
-    sum.mass += volume * material.density;
+    sum.mass += volume * density_scale_of(model, i) * material.density;
     sum.young += volume * material.young;
     sum.poisson += volume * material.poisson;
   }
@@ -103,7 +103,8 @@ Drop plan_drop(const SceneInput& input, const StepLimit& limit) {
   drop.young = input.material_is_default ? kStiffness * weight : means.young;
   drop.stiffness_why =
       input.material_is_default ? "100 times the pressure of its own weight, so that it hardly sags" : "as asked for";
-
+  const bool one_factor = model.stiffness_factor != 1 && model.stiffness_scale.empty();
+  if (one_factor && input.material_is_default) drop.young *= model.stiffness_factor;
   const Material material{drop.density, drop.young, drop.poisson, 1};
   const double explicit_step = assess_readiness(model.mesh, measure_quality(model.mesh), material).stable_time_step;
   const double bearable = limit.bearable * explicit_step;
@@ -117,6 +118,12 @@ Drop plan_drop(const SceneInput& input, const StepLimit& limit) {
     }
   }
   drop.stiffening = drop.young / means.young;
+  if (one_factor)
+    drop.stiffness_why += "; calibrated: " + brief(model.stiffness_factor) +
+                          " times that of the body they stand for, " + brief(drop.young / model.stiffness_factor) +
+                          " Pa, since so few tets are too stiff";
+  else if (!model.stiffness_scale.empty())
+    drop.stiffness_why += "; calibrated: times a factor for every tet, so that they move as many would";
   return drop;
 }
 

@@ -1,5 +1,6 @@
 // SOFA's scene: a Python scene for runSofa.
 #include "io/engines/scene_parts.h"
+#include "io/model_parts.h"
 
 namespace tetsoup {
 
@@ -59,13 +60,13 @@ std::string_view rotation_of(UpAxis up) {
   return up == UpAxis::X ? "0, -90, 0" : "0, 0, 0";
 }
 
-// One number, or one a tet where regions differ.
+// One number, or one a tet where they differ.
 std::string youngs_of(const TetModel& model, const Drop& drop) {
-  if (model.regions.size() == 1 || model.tet_regions.empty()) return brief(drop.young);
+  if (!has_regions(model) && model.stiffness_scale.empty()) return brief(drop.young);
   std::string text;
-  for (const std::uint32_t region : model.tet_regions) {
+  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
     if (!text.empty()) text += ", ";
-    text += brief(drop.stiffening * model.regions[region].material.young);
+    text += brief(drop.stiffening * stiffness_scale_of(model, t) * model.regions[region_of(model, t)].material.young);
   }
   return text;
 }
