@@ -18,7 +18,6 @@ import { ModelView } from './view/model_view';
 import { Stage } from './view/stage';
 
 const kUpAxis = { x: 0, y: 1, z: 2 } as const;
-const kMaterial = { density: 1000, young: 1e5, poisson: 0.4 };
 
 export class App {
   private readonly store = new Store(fromAddress(location.hash));
@@ -59,6 +58,7 @@ export class App {
     this.viewport.element.append(this.empty, this.notice.element);
     this.root.append(this.header.element, el('aside', { 'aria-label': 'Settings' }), this.viewport.element, this.picker);
     this.stage = new Stage(this.viewport.canvas, 'The model in 3D. Arrow keys turn it, plus and minus zoom.');
+    this.stage.onLost = (lost) => (lost ? this.notice.complain(words.kPictureLost) : this.notice.hide());
     this.view = new ModelView(this.stage,
       (translate, rotate) => this.store.set({ translate, rotate }), () => this.store.endStep());
     this.client = new Client((reply) => this.onReply(reply));
@@ -68,7 +68,7 @@ export class App {
       nothing: () => this.showNothing(),
     });
     this.play = new Play(this.client, this.stage, this.viewport,
-      () => ({ up: kUpAxis[this.store.now.up], young: 10 ** this.store.now.stiffness }), () => this.showLook(),
+      () => ({ up: kUpAxis[this.store.now.up], material: materialOf(this.store.now) }), () => this.showLook(),
       ({ frames, framesPerSecond, simulate, draw, box }) => Object.assign(this.root.dataset, { frames, fps: framesPerSecond.toFixed(1),
         simulate: simulate.toFixed(1), draw: draw.toFixed(1), box: box.map((x) => x.toFixed(3)).join(' ') }));
     this.theme = new Theme((dark) => this.paint(dark));
@@ -106,7 +106,7 @@ export class App {
       case 'files':
         this.viewport.setStatus(this.finished);
         downloadFiles(this.exportStem, reply.files);
-        return this.exporter?.done(reply.files, reply.usage);
+        return this.exporter?.done(this.exportStem, reply.files, reply.usage);
       case 'playing': return this.onPlaying(reply.start);
       case 'frame': return this.play.frame(reply.frame);
       case 'cancelled': return reply.job === this.meshJob ? this.viewport.setStatus('') : undefined;
@@ -128,8 +128,8 @@ export class App {
     this.root.dataset.threads = String(catalog.threads);
     this.viewport.setView(this.store.now.view);
     const served = new URLSearchParams(location.search).get('model');
-    if (served) void this.openServed(served);
-    else if (this.store.now.sample) void this.source.load();
+    if (this.store.now.sample) void this.source.load();
+    else if (served) void this.openServed(served);
   }
 
   /** The model that `tetsoup studio FILE` serves beside the page. */
@@ -142,6 +142,8 @@ export class App {
   private onSoup(surface: { vertices: Float32Array; triangles: Uint32Array }, report: SoupReport): void {
     this.stopPlaying();
     this.soup = report;
+    this.surface = surface;
+    this.mesh = null;
     const another = this.source.loaded();
     this.report = null;
     this.meshDone = false;
@@ -162,20 +164,23 @@ export class App {
     // A view that was chosen stays while triangles are taken away.
     if (another) this.fit();
     this.updateButtons();
-    if (report.class !== 'empty') this.askMesh();
-    else this.notice.complain('There is no usable triangle in this file. Choose another one, or a sample.');
+    this.askMesh();
   }
 
   private onMesh(result: MeshResult, done: boolean): void {
     this.report = result.report;
     this.slice = result.slice;
     this.meshDone = done;
+    this.mesh = result.final;
     this.view.setMesh(result);
     this.view.placeFrame(this.store.now.translate, this.store.now.rotate);
     this.showReports();
     this.showLook();
     this.updateButtons();
+    const job = this.meshJob;
     this.stage.onDrawn(() => {
+      // What failed or was asked for since then has been said.
+      if (job !== this.meshJob || this.root.dataset.state === 'error') return;
       const time = performance.now() - this.wishedAt;
       this.finished = done ? `${words.count(result.report.quality.tet_count, 'tet')} in ${words.milliseconds(time)}` : '';
       this.viewport.setStatus(this.finished || 'Coarse answer, refining', !done);
@@ -223,7 +228,7 @@ export class App {
       this.stage.setUp(kUpAxis[now.up]);
       this.fit();
     }
-    if (differs('stiffness')) this.play.setStiffness(10 ** now.stiffness);
+    if (differs('stiffness', 'density', 'poisson')) this.play.setMaterial(materialOf(now));
     if (differs('unit')) this.showReports();
     if (differs('sample', 'damage', 'file')) return void this.source.load();
     if (JSON.stringify(meshOptions(now)) !== JSON.stringify(meshOptions(before))) {
@@ -256,14 +261,14 @@ export class App {
   }
 
   private askMesh(): void {
-    if (!this.soup || this.soup.class === 'empty') return;
+    if (!this.soup) return;
     this.stopPlaying();
     this.meshDone = false;
     this.wishedAt = performance.now();
     this.root.dataset.state = 'busy';
     this.updateButtons();
     this.panels?.report('embedding', '', []);
-    this.meshJob = this.client.ask({ type: 'mesh', options: meshOptions(this.store.now), slice: this.viewport.cut, material: kMaterial });
+    this.meshJob = this.client.ask({ type: 'mesh', options: meshOptions(this.store.now), slice: this.viewport.cut, material: materialOf(this.store.now) });
   }
 
   private askSlice(): void {
@@ -305,8 +310,8 @@ export class App {
 
   private export(choice: ExportChoice): void {
     const { up, unit } = this.store.now;
-    this.exportStem = choice.name.replace(/\.[^.]*$/, '');
-    const wish = { ...choice, up: kUpAxis[up], metresPerUnit: kUnits[unit].metres, material: kMaterial };
+    this.exportStem = choice.stem;
+    const wish = { ...choice, up: kUpAxis[up], metresPerUnit: kUnits[unit].metres, material: materialOf(this.store.now) };
     this.client.ask({ type: 'export', wish });
   }
 

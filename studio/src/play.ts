@@ -1,6 +1,6 @@
 // Playing: from the button to moving bodies, with the times that simulating and drawing take.
 import type { Client } from './core/client';
-import type { Frame, PlayStart, Vec3 } from './core/protocol';
+import type { Frame, Material, PlayStart, Vec3 } from './core/protocol';
 import type { Stage } from './view/stage';
 import { PlayView } from './view/play_view';
 import type { Viewport } from './ui/viewport';
@@ -8,6 +8,8 @@ import { milliseconds } from './ui/words';
 
 /** Times are averages of so many frames. */
 const kAveraged = 20;
+/** A scene's bodies are made anew for another material: once nobody has changed it for so many milliseconds. */
+const kSettled = 300;
 
 export interface PlayStats {
   frames: number;
@@ -24,10 +26,11 @@ export class Play {
   paused = false;
   readonly stats: PlayStats = { frames: 0, framesPerSecond: 0, simulate: 0, draw: 0, box: [] };
   private scene: string | null = null;
+  private changing = 0;
   private arrivals: { at: number; simulate: number; draw: number }[] = [];
 
   constructor(private readonly client: Client, private readonly stage: Stage, private readonly viewport: Viewport,
-              private readonly settings: () => { up: number; young: number }, private readonly changed: () => void,
+              private readonly settings: () => { up: number; material: Material }, private readonly changed: () => void,
               private readonly noted: (stats: PlayStats) => void) {
     this.view = new PlayView(stage, {
       grab: (body, vertex, target: Vec3) => client.send({ type: 'grab', body, vertex, target }),
@@ -39,8 +42,8 @@ export class Play {
   begin(scene: string | null): void {
     this.scene = scene;
     this.viewport.setStatus(scene ? 'Meshing the scene' : 'Preparing the body', true);
-    this.client.ask({ type: 'play', wish: { scene, up: this.settings().up, young: scene ? 0 : this.settings().young,
-      drawnBy: this.stage.drawnBy } });
+    const { up, material } = this.settings();
+    this.client.ask({ type: 'play', wish: { scene, up, material: scene ? null : material, drawnBy: this.stage.drawnBy } });
   }
 
   started(start: PlayStart): void {
@@ -89,8 +92,12 @@ export class Play {
     this.begin(this.scene);
   }
 
-  setStiffness(young: number): void {
-    if (this.on) this.client.ask({ type: 'stiffness', young });
+  setMaterial(material: Material): void {
+    clearTimeout(this.changing);
+    if (!this.on) return;
+    const ask = () => this.client.ask({ type: 'material', material });
+    if (this.scene) this.changing = setTimeout(ask, kSettled);
+    else ask();
   }
 
   look(tets: boolean): void {
@@ -100,6 +107,7 @@ export class Play {
   stop(): void {
     if (!this.on) return;
     this.on = false;
+    clearTimeout(this.changing);
     this.client.send({ type: 'stop' });
     this.view.empty();
     this.viewport.setPlaying(false);

@@ -3,8 +3,9 @@ import type { Client } from './core/client';
 import type { Source as SoupSource } from './core/protocol';
 import type { Settings, Store } from './state';
 
-/** Formats whose files have y up by custom. */
+/** Formats whose files have y up, or are in millimetres, by custom. */
 const kYUp = /\.(obj|gltf|glb)$/i;
+const kMillimetres = /\.3mf$/i;
 
 function nameOf(s: Settings): string {
   return JSON.stringify([s.sample, s.damage, s.file]);
@@ -34,7 +35,11 @@ export class Source {
     // Even under the same name it may be another one.
     if (file.name === this.store.now.file) this.shown = this.model = this.asked = '';
     const before = this.store.now;
-    this.store.set({ file: file.name, sample: '', damage: 0, up: kYUp.test(file.name) ? 'y' : 'z' });
+    // What the address says holds for the file that it was made with; what another model was like does not.
+    const told = new URLSearchParams(before.sample || before.file ? '' : location.hash.slice(1));
+    const up = told.has('up') ? before.up : kYUp.test(file.name) ? 'y' : 'z';
+    const unit = told.has('unit') ? before.unit : kMillimetres.test(file.name) ? 'mm' : 'm';
+    this.store.set({ file: file.name, sample: '', damage: 0, up, unit });
     this.store.endStep();
     if (this.store.now === before) void this.load();
   }

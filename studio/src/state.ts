@@ -1,5 +1,5 @@
 // What the user chose, its history, and its place in the page's address.
-import type { MeshOptions, Vec3 } from './core/protocol';
+import type { Material, MeshOptions, Vec3 } from './core/protocol';
 
 export type View = 'soup' | 'votes' | 'lattice' | 'tets' | 'surface';
 
@@ -26,6 +26,9 @@ export interface Settings {
   snap: 'on' | 'off';
   /** Decimal logarithm of Young's modulus in Pa. */
   stiffness: number;
+  /** kg/m^3. */
+  density: number;
+  poisson: number;
   view: View;
 }
 
@@ -59,11 +62,17 @@ export function meshOptions(s: Settings): MeshOptions {
   return options;
 }
 
-/** Only what differs from the defaults, so that addresses stay short. */
+/** What falls and what is written into files is of one material. */
+export function materialOf(s: Settings): Material {
+  return { density: s.density, young: Number((10 ** s.stiffness).toPrecision(3)), poisson: s.poisson };
+}
+
+/** Only what differs from the defaults, so that addresses stay short; of a file also what else would be guessed. */
 export function toAddress(s: Settings): string {
   const words = new URLSearchParams();
+  const guessed: readonly string[] = s.file ? ['up', 'unit'] : [];
   for (const key of Object.keys(kDefaults) as (keyof Settings)[])
-    if (key !== 'file' && String(s[key]) !== String(kDefaults[key])) words.set(key, String(s[key]));
+    if (key !== 'file' && (String(s[key]) !== String(kDefaults[key]) || guessed.includes(key))) words.set(key, String(s[key]));
   return words.toString().replace(/%2C/g, ',');
 }
 
@@ -71,8 +80,8 @@ export function toAddress(s: Settings): string {
 export function fromAddress(hash: string): Settings {
   const s: Record<string, unknown> = { ...kDefaults };
   for (const [key, text] of new URLSearchParams(hash.replace(/^#/, ''))) {
+    if (!Object.keys(kDefaults).includes(key) || key === 'file') continue;
     const fallback = kDefaults[key as keyof Settings];
-    if (!(key in kDefaults) || key === 'file') continue;
     const choices = kChoices[key as keyof Settings];
     const numbers = text.split(',').map(Number);
     if (Array.isArray(fallback)) {
@@ -114,6 +123,11 @@ export class Store {
     this.lastTime = time;
     this.future = [];
     this.apply(now);
+  }
+
+  /** What was guessed of a model that has come belongs to the step that brought it. */
+  amend(change: Partial<Settings>): void {
+    this.apply({ ...this.now, ...change });
   }
 
   /** Leaves out the last step, as if it had not been made. */

@@ -56,14 +56,14 @@ test('a body of another stiffness goes on at the scene’s own time', async () =
     withBytes: (_, body) => body(16),
   };
   const player = new Player(core, {}, {});
-  await player.start({ scene: 'stirred', up: 2, young: 0 });
+  await player.start({ scene: 'stirred', up: 2, material: null });
   for (let i = 0; i < 7; ++i) player.advance();
   calls.length = 0;
-  player.setStiffness(1e5);
+  player.setMaterial({ density: 900, young: 1e5, poisson: 0.3 });
   const seek = calls.find(([name]) => name === 'scene_seek');
   assert.deepEqual(seek?.[2], 7);
   assert.ok(calls.findIndex(([name]) => name === 'scene_load') < calls.indexOf(seek));
-  await player.start({ scene: 'stirred', up: 2, young: 0 });
-  player.setStiffness(1e5);
+  await player.start({ scene: 'stirred', up: 2, material: null });
+  player.setMaterial({ density: 900, young: 1e5, poisson: 0.3 });
   assert.equal(calls.filter(([name]) => name === 'scene_seek').at(-1)[2], 0);
 });

@@ -3,6 +3,9 @@ import type { Core } from './module';
 import type { EmbedReport, ExportWish, OutFile } from './protocol';
 import type { Mesher } from './mesher';
 
+/** Of the module's own file system. */
+const kFolder = '/out/';
+
 export class Body {
   private model = 0;
   private version = -1;
@@ -33,13 +36,14 @@ export class Body {
     const { density, young, poisson } = wish.material;
     core.call('model_set_material', model, density, young, poisson, wish.metresPerUnit);
     core.call('model_set_up', model, wish.up);
-    const path = '/out/' + wish.name;
+    const path = kFolder + wish.name;
     const call = wish.engine ? 'model_write_for_engine' : 'model_write';
     core.withTexts([path, wish.engine ?? wish.format ?? null], (to, how) =>
       core.call(call, model, to, how, core.result));
     const written = core.json<string[] | { files: string[]; usage: string }>();
     const paths = Array.isArray(written) ? written : written.files;
     const files = paths.map((file) => ({ name: file.slice(file.lastIndexOf('/') + 1), bytes: core.takeFile(file) }));
-    return { files, usage: Array.isArray(written) ? '' : written.usage };
+    // Whoever saves the files has them in another folder.
+    return { files, usage: Array.isArray(written) ? '' : written.usage.replaceAll(kFolder, '') };
   }
 }

@@ -1,6 +1,6 @@
 // A soup and its two pipelines: the wanted one, and a coarse one that answers first where the wanted one would be slow.
 // Two, because running one with other options would throw away what it remembers.
-import type { Core } from './module';
+import { type Core, CoreError, kUnreadable } from './module';
 import type {
   Grid, Material, MeshOptions, MeshResult, Report, Slice, SliceWish, Source, SoupReport, Surface, Tets,
 } from './protocol';
@@ -11,6 +11,7 @@ const kSlowMilliseconds = 150;
 /** Half of what WebAssembly can have: the rest is for meshes, copies and the simulation. */
 const kGridBytes = 1024 * 1024 * 1024;
 const kMinDihedral = 1;
+const kNoTriangle = 'it holds no usable triangle';
 
 const kStages = ['distance', 'pseudo_volume', 'lattice', 'smooth'] as const;
 /** The first stage that an option reaches; all others reach the lattice. */
@@ -22,7 +23,7 @@ export class Mesher {
   soup = 0;
   private fine = 0;
   private coarse = 0;
-  private last: { options: MeshOptions; seconds: Record<string, number> } | null = null;
+  private last: { options: MeshOptions; report: Report } | null = null;
   /** Counts finished fine meshes, so that copies of the mesh know when they are stale. */
   version = 0;
   finished = false;
@@ -30,15 +31,20 @@ export class Mesher {
   constructor(private readonly core: Core) {}
 
   load(source: Source): { surface: Surface; report: SoupReport } {
+    const { core } = this;
     const soup = this.read(source);
+    core.call('soup_report', soup, core.result);
+    const report = core.json<SoupReport>();
+    // What was there before stays, as with a file that cannot be read.
+    if (report.class === 'empty') {
+      core.number('soup_destroy', soup);
+      throw new CoreError(kUnreadable, kNoTriangle);
+    }
     this.clear();
     this.soup = soup;
-    const { core } = this;
     core.call('soup_vertices', soup, core.result);
     core.call('soup_triangles', soup, core.result + 12);
-    const surface = { vertices: core.floats(), triangles: core.indices(12) };
-    core.call('soup_report', soup, core.result);
-    return { surface, report: core.json<SoupReport>() };
+    return { surface: { vertices: core.floats(), triangles: core.indices(12) }, report };
   }
 
   private read(source: Source): number {
@@ -71,6 +77,11 @@ export class Mesher {
     return pipeline;
   }
 
+  /** Of the last finished mesh. */
+  get report(): Report | undefined {
+    return this.last?.report;
+  }
+
   get pipeline(): number {
     return this.fine;
   }
@@ -83,7 +94,7 @@ export class Mesher {
     for (const key of keys)
       if (String(options[key]) !== String(this.last.options[key])) first = Math.min(first, kStageOfOption[key] ?? 2);
     const growth = first === 0 ? (Number(options.voxels) / Number(this.last.options.voxels)) ** 3 : 1;
-    return kStages.slice(first).reduce((sum, stage) => sum + 1000 * growth * (this.last?.seconds[stage] ?? 0), 0);
+    return kStages.slice(first).reduce((sum, stage) => sum + 1000 * growth * (this.last?.report.seconds[stage] ?? 0), 0);
   }
 
   wantsCoarse(options: MeshOptions): boolean {
@@ -113,7 +124,7 @@ export class Mesher {
     const { core } = this;
     core.withTexts([JSON.stringify(material)], (text) => core.call('pipeline_report', pipeline, text, core.result));
     const report = core.json<Report>();
-    if (!coarse) this.last = { options, seconds: report.seconds };
+    if (!coarse) this.last = { options, report };
     return {
       lattice: this.tets(pipeline, 0),
       final: this.tets(pipeline, 1),

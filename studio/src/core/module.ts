@@ -18,6 +18,7 @@ interface Emscripten {
 type Create = (options: Record<string, unknown>) => Promise<Emscripten>;
 
 const kOk = 0;
+export const kUnreadable = 2;
 export const kCancelled = 3;
 const kOutOfMemory = 4;
 

@@ -1,6 +1,6 @@
 // A simulation that plays: the meshed body that falls on the ground, or a built-in scene.
 import type { Core } from './module';
-import type { BodyFrame, BodyShape, Frame, PlayStart, PlayWish, Skin, Surface, Vec3 } from './protocol';
+import type { BodyFrame, BodyShape, Frame, Material, PlayStart, PlayWish, Report, Skin, Surface, Vec3 } from './protocol';
 import type { Body } from './body';
 import type { Mesher } from './mesher';
 
@@ -19,7 +19,7 @@ const kAllThreads = 0;
 const kMaterial = { density: 1000, poisson: 0.4, damping_time: 0.004, friction: 0.8 };
 
 interface SceneBody {
-  material?: { young?: number };
+  material?: Partial<Material>;
 }
 
 export class Player {
@@ -28,6 +28,9 @@ export class Player {
   private springs: { spring: number; offset: Vec3 }[] = [];
   private bodyCount = 0;
   private mass = 1;
+  /** As it is, and as it shall be. */
+  private material: Material | null = null;
+  private wanted: Material | null = null;
   /** Of a scene, since it began. */
   private frames = 0;
 
@@ -41,7 +44,8 @@ export class Player {
     this.stop();
     this.wish = wish;
     this.frames = 0;
-    const title = this.build(wish.young);
+    this.wanted = null;
+    const title = this.build(wish.material);
     const { core } = this;
     core.call('simulation_body_count', this.simulation, core.result);
     this.bodyCount = core.word();
@@ -56,9 +60,22 @@ export class Player {
     return { bodies, obstacles, tetCount: report.tet_count, triangleCount, title };
   }
 
-  /** Everything stays where it is and as fast as it is, of another material. */
-  setStiffness(young: number): void {
-    if (!this.wish) return;
+  /** From the next frames on. A scene's bodies are made anew for it, which takes long, so they change in one go. */
+  setMaterial(material: Material): void {
+    if (this.wish?.scene) this.change(material, 1);
+    else this.wanted = material;
+  }
+
+  /** One frame's way to the wanted material. */
+  private approach(wanted: Material): void {
+    const now = this.material?.young ?? wanted.young;
+    const young = Math.min(now * kStiffening, Math.max(now / kStiffening, wanted.young));
+    this.change({ ...wanted, young }, kCalmed);
+    if (young === wanted.young) this.wanted = null;
+  }
+
+  /** Everything stays where it is, of another material, and as fast as it is but for a factor. */
+  private change(material: Material, kept: number): void {
     const { core } = this;
     const state: Float32Array<ArrayBuffer>[][] = [];
     for (let body = 0; body < this.bodyCount; ++body) state.push(['positions', 'velocities'].map((what) => {
@@ -67,16 +84,18 @@ export class Player {
     }));
     this.release();
     const old = this.simulation;
-    this.build(young);
+    this.build(material);
     core.number('simulation_destroy', old);
-    if (this.wish.scene) core.call('scene_seek', this.simulation, this.frames);
+    for (const [, velocities] of state) velocities.forEach((v, i) => (velocities[i] = kept * v));
+    if (this.wish?.scene) core.call('scene_seek', this.simulation, this.frames);
     state.forEach((arrays, body) => arrays.forEach((values, i) => core.withBytes(new Uint8Array(values.buffer), (at) =>
       core.call(i === 0 ? 'simulation_set_positions' : 'simulation_set_velocities', this.simulation, body, at,
         values.length / 3))));
   }
 
-  private build(young: number): string {
+  private build(material: Material | null): string {
     const { wish } = this;
+    this.material = material;
     this.core.number('set_thread_count', kAllThreads);
     const title = wish?.scene ? this.loadScene(wish.scene, young) : this.dropBody(young);
     // Steps are short, and whoever waits between them for the next loop would keep the core that draws.
@@ -84,11 +103,11 @@ export class Player {
     return title;
   }
 
-  private loadScene(name: string, young: number): string {
+  private loadScene(name: string, material: Material | null): string {
     const { core } = this;
     core.withTexts([name], (text) => core.call('scene_text', text, core.result));
     const scene = core.json<{ title?: string; bodies: SceneBody[] }>();
-    if (young > 0) scene.bodies.forEach((body) => (body.material = { ...body.material, young }));
+    if (material) scene.bodies.forEach((body) => (body.material = { ...body.material, ...material }));
     core.withTexts([JSON.stringify(scene)], (text) =>
       core.call('scene_load', text, 0, core.progress, 0, core.result));
     this.simulation = core.word();
@@ -96,30 +115,29 @@ export class Player {
     return scene.title ?? name;
   }
 
-  private dropBody(young: number): string {
+  private dropBody(material: Material): string {
     const { core } = this;
     const up = this.wish?.up ?? 2;
-    core.call('pipeline_report', this.mesher.pipeline, 0, core.result);
-    const { soup, quality } = core.json<{ soup: { box: { lo: Vec3; hi: Vec3 } }; quality: { volume: number } }>();
+    const { soup, quality } = this.mesher.report as Report;
     const extent = soup.box.hi.map((hi, i) => hi - soup.box.lo[i]);
     const scale = kSize / Math.max(...extent);
-    this.mass = kMaterial.density * quality.volume * scale ** 3;
+    this.mass = material.density * quality.volume * scale ** 3;
     const middle = soup.box.lo.map((lo, i) => (lo + soup.box.hi[i]) / 2);
-    // With y up, a quarter turn about x brings (x, y, z) to (x, -z, y).
-    const turned = up === 1 ? [middle[0], -middle[2], 0] : [middle[0], middle[1], 0];
+    // Quarter turns: with y up, one about x brings (x, y, z) to (x, -z, y); with x up, one about y brings it to (-z, y, x).
+    const turned = [[-middle[2], middle[1]], [middle[0], -middle[2]], [middle[0], middle[1]]][up];
     const lowest = soup.box.lo[up];
     const place = {
       scale,
-      rotate: [up === 1 ? 90 : 0, 0, 0],
+      rotate: [[0, -90, 0], [90, 0, 0], [0, 0, 0]][up],
       translate: [-scale * turned[0], -scale * turned[1], kDropHeight - scale * lowest],
     };
     const model = this.body.get();
     core.withTexts(['{}'], (options) => core.call('simulation_create', options, core.result));
     this.simulation = core.word();
-    core.withTexts([JSON.stringify({ ...kMaterial, young }), JSON.stringify(place)], (material, where) =>
+    core.withTexts([JSON.stringify({ ...kFeel, ...material }), JSON.stringify(place)], (material, where) =>
       core.call('simulation_add_model', this.simulation, model, material, where, core.result));
     core.withDoubles([0, 0, 1], (normal) =>
-      core.call('simulation_add_plane', this.simulation, normal, 0, kMaterial.friction));
+      core.call('simulation_add_plane', this.simulation, normal, 0, kFeel.friction));
     return 'The body falls on the ground';
   }
 
@@ -146,6 +164,7 @@ export class Player {
   advance(): Frame {
     const { core } = this;
     const since = performance.now();
+    if (this.wanted) this.approach(this.wanted);
     if (this.wish?.scene) {
       core.call('scene_advance', this.simulation);
       ++this.frames;

@@ -161,7 +161,8 @@ export interface PlayWish {
   /** A built-in scene, or the body that was meshed. */
   scene: string | null;
   up: number;
-  young: number;
+  /** Null: as the scene has it. */
+  material: Material | null;
   /** Who draws: a processor that does is spared triangles, and has the second core to itself. */
   drawnBy: 'gpu' | 'processor';
 }
@@ -198,7 +199,7 @@ export type Request =
   | { type: 'embed'; job: number }
   | { type: 'export'; job: number; wish: ExportWish }
   | { type: 'play'; job: number; wish: PlayWish }
-  | { type: 'stiffness'; job: number; young: number }
+  | { type: 'material'; job: number; material: Material }
   | { type: 'drawn' }
   | { type: 'pause'; paused: boolean }
   | { type: 'grab'; body: number; vertex: number; target: Vec3 }

@@ -128,7 +128,7 @@ async function runJob(request: Job): Promise<void> {
       reply({ type: 'playing', job, start: begin });
       return sendFrame(false);
     }
-    case 'stiffness': return player.playing ? player.setStiffness(request.young) : undefined;
+    case 'material': return player.playing ? player.setMaterial(request.material) : undefined;
   }
 }
 
@@ -199,6 +199,9 @@ self.onmessage = async (event: MessageEvent<Request>) => {
       newest = request.job;
       mesh = null;
     }
+    // Of materials only the newest counts, too.
+    const old = request.type === 'material' ? jobs.findIndex((job) => job.type === 'material') : -1;
+    if (old >= 0) jobs.splice(old, 1);
     jobs.push(request);
   }
   void work();

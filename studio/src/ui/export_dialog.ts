@@ -4,6 +4,8 @@ import type { Catalog, OutFile } from '../core/protocol';
 import { el } from './dom';
 
 export interface ExportChoice {
+  /** Of all files, without an extension. */
+  stem: string;
   name: string;
   format?: string;
   engine?: string;
@@ -53,10 +55,10 @@ export class ExportDialog {
     const [kind, value] = this.what.value.split(':');
     const rows = kind === 'engine' ? this.catalog.engines : this.catalog.formats;
     const extension = rows.find((row) => row.name === value)?.extension ?? '';
-    // Names become files of other systems, too.
-    const stem = this.name.value.replace(/[^\p{L}\p{N}._-]+/gu, '_').replace(/^\.+/, '') || 'mesh';
+    // Names become files of other systems, too; what follows a dot would be taken for an extension.
+    const stem = this.name.value.replace(/[^\p{L}\p{N}_-]+/gu, '_').replace(/^_+$/, '') || 'mesh';
     const name = kind === 'engine' ? stem : stem + extension;
-    return { name, [kind]: value };
+    return { stem, name, [kind]: value };
   }
 
   private describe(): void {
@@ -67,8 +69,11 @@ export class ExportDialog {
     this.note.textContent = kind === 'engine' ? `${summary}. Lengths are written in metres, by the unit of the soup.` : '';
   }
 
-  done(files: OutFile[], usage: string): void {
-    this.note.replaceChildren(`Saved ${files.map((f) => f.name).join(', ')}. `, ...(usage ? ['Next: ', el('code', {}, usage)] : []));
+  done(stem: string, files: OutFile[], usage: string): void {
+    const names = files.map((file) => file.name).join(', ');
+    const saved = files.length === 1 ? `Saved ${names}. ` : `Saved ${stem}.zip with ${names}. `;
+    const next = files.length === 1 ? 'Next: ' : 'Next, where you unpacked it: ';
+    this.note.replaceChildren(saved, ...(usage ? [next, el('code', {}, usage)] : []));
   }
 
   failed(text: string): void {

@@ -33,6 +33,7 @@ export class Panels {
   private readonly bindings: ((s: Settings) => void)[] = [];
   private readonly gizmoButtons = new Map<string, HTMLButtonElement>();
   private readonly meshOnly: HTMLButtonElement[] = [];
+  private readonly doubt = el('p', { class: 'doubt', role: 'status', hidden: true });
 
   constructor(private readonly store: Store, private readonly actions: PanelActions, catalog: Catalog) {
     for (const name of Object.keys(kTitles) as PanelName[]) this.addPanel(name);
@@ -88,7 +89,7 @@ export class Panels {
         choices: [['x', 'x'], ['y', 'y'], ['z', 'z']], change: (up) => this.store.set({ up }) }), (s) => s.up),
       this.bind(select({ id: 'unit', label: 'Unit', hint: 'What a length of 1 in the file means. Engines get metres.',
         choices: Object.entries(kUnits).map(([k, u]) => [k as Settings['unit'], u.label] as const),
-        change: (unit) => this.store.set({ unit }) }), (s) => s.unit)));
+        change: (unit) => this.store.set({ unit }) }), (s) => s.unit)), this.doubt);
   }
 
   private fillVolume(): void {
@@ -173,7 +174,7 @@ export class Panels {
   private fillSimulation(): void {
     const likeness = el('span', { class: 'unit' });
     const stiffness = slider({ id: 'stiffness', label: 'Stiffness', min: 3.7, max: 7, step: 0.1,
-      hint: 'Young’s modulus as a power of ten in pascals: 4 is jelly, 6 is rubber. The body is played 1 m high, of the weight of water.',
+      hint: 'Young’s modulus as a power of ten in pascals: 4 is jelly, 6 is rubber. It holds while playing and in files for engines.',
       change: (value) => this.store.set({ stiffness: value }), done: () => this.store.endStep() });
     this.bindings.push((s) => (likeness.textContent = `${words.pascals(10 ** s.stiffness)}: ${words.likeWhat(10 ** s.stiffness)}`));
     const drop = this.need(el('button', { type: 'button', class: 'primary', id: 'drop', onclick: () => this.actions.play(null) }, 'Drop it'));
@@ -193,7 +194,15 @@ export class Panels {
     this.gizmoButtons.forEach((button) => (button.disabled = !mesh));
   }
 
+  /** Asks whether a size that is unlikely is meant. */
+  private showDoubt(soup: SoupReport | null): void {
+    const doubt = soup && words.ofDoubt(soup.box, this.store.now.unit);
+    this.doubt.hidden = !doubt;
+    if (doubt) this.doubt.replaceChildren(doubt.text, el('button', { type: 'button', onclick: () => this.store.set({ unit: doubt.unit }) }, doubt.ask));
+  }
+
   clear(): void {
+    this.showDoubt(null);
     for (const name of this.panels.keys()) this.report(name, '', []);
   }
 
@@ -204,6 +213,7 @@ export class Panels {
   /** What came of the soup, and of its mesh as far as there is one. */
   showReports(soup: SoupReport, report: Report | null): void {
     const { now } = this.store;
+    this.showDoubt(soup);
     this.report('soup', words.count(soup.used_triangles, 'triangle'), words.ofSoup(soup, now.unit));
     if (!report) return;
     const { pseudo_volume, lattice, quality } = report;

@@ -10,6 +10,9 @@ export interface Sentence {
 
 const say = (text: string, tone: Tone = 'plain'): Sentence => ({ text, tone });
 
+export const kPictureLost = 'The graphics card has taken the picture away. It comes back by itself; if it does not, reload the page.';
+export const kCannotDraw = 'This browser does not draw in 3D: WebGL 2 is missing or switched off. Switch on hardware acceleration in its settings, or take another browser. The tool works without: tetsoup mesh model.obj -o model.msh';
+
 /** A sample's name at the beginning of a line. */
 export function title(name: string): string {
   return name.charAt(0).toUpperCase() + name.slice(1);
@@ -40,14 +43,25 @@ function extents(box: Box, unit: Unit): string {
   return all.map((x) => Number((x * scale).toPrecision(2)).toLocaleString('en')).join(' × ') + (unit === 'own' ? '' : `\u00a0${name}`);
 }
 
+/** Metres between which nearly all is that falls, and units in the order in which they are meant. */
+const kLikely = [0.01, 10] as const;
+const kMeant: readonly Settings['unit'][] = ['m', 'cm', 'mm', 'in'];
+
+/** A size that is unlikely, and the unit that makes it a likely one. */
+export function ofDoubt(box: Box, unit: Settings['unit']): { text: string; unit: Settings['unit']; ask: string } | null {
+  const longest = Math.max(...box.hi.map((hi, i) => hi - box.lo[i]));
+  const likely = (u: Settings['unit']) => longest * kUnits[u].metres >= kLikely[0] && longest * kUnits[u].metres <= kLikely[1];
+  const meant = likely(unit) ? undefined : kMeant.find(likely);
+  return meant ? { text: `It is ${length(longest, unit)} long.`, unit: meant, ask: `${title(kUnits[meant].label)}?` } : null;
+}
+
 export function milliseconds(ms: number): string {
   return ms < 10 ? `${ms.toFixed(1)} ms` : ms < 2000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`;
 }
 
 export function ofSoup(r: SoupReport, unit: Unit): Sentence[] {
   const said = [say(`${count(r.used_triangles, 'triangle')}, ${extents(r.box, unit)}.`)];
-  if (r.class === 'empty') return [say('There is no usable triangle in this file. Choose another one.', 'watch')];
-  if (r.class === 'closed') said.push(say('Closed: every edge has two triangles.', 'good'));
+  if (r.class === 'closed') said.push(say('Closed: no edge is open.', 'good'));
   if (r.boundary_edges) said.push(say(`${count(r.boundary_edges, 'open edge')}: holes are bridged, nothing to repair.`));
   if (r.non_manifold_edges) said.push(say(`${count(r.non_manifold_edges, 'edge')} with more than two triangles. That is fine.`));
   if (r.components > 1) said.push(say(`${count(r.components, 'part')} not connected by triangles.`));
@@ -125,14 +139,23 @@ export function likeWhat(young: number): string {
 
 /** The library's errors name an option of scene files; the page says what to do about it. */
 export function ofError(message: string, status: number): string {
-  if (/memory|too many voxels|voxels fit/i.test(message)) return `Too many voxels for this page's memory. ${sentence(message)} Choose fewer voxels.`;
+  if (status === 1 && /^(mesh\.)?voxels = /.test(message)) return ofTooManyVoxels(message);
   if (status === 4) return 'The memory of this page is used up. Choose fewer voxels or tets, or reload the page.';
-  if (status === 2) return `This file cannot be read: ${message.trim().replace(/\.?$/, '.')} Export it again as OBJ, STL, PLY, OFF, GLB, 3MF or DAE.`;
+  if (status === 2 && /lies in another file/.test(message))
+    return 'This file keeps its geometry in another file, which a page cannot follow. Save it as one .glb, and open that.';
+  if (status === 2) return `This file cannot be read: ${message.trim().replace(/[.?!]*$/, '')}. Export it again as OBJ, STL, PLY, OFF, GLB, 3MF or DAE.`;
   if (status === 5) return `Something went wrong inside tetsoup: ${sentence(message)} Reload the page; if it happens again, please report it.`;
   return sentence(message.replace(/^mesh\./, ''));
 }
 
-function sentence(text: string): string {
+/** Of a grid that has more voxels than memory, or than can be counted. */
+function ofTooManyVoxels(message: string): string {
+  const most = /must be at most (\d+) to fit into/.exec(message)?.[1];
+  return `So many voxels do not fit into this page's memory. ${most ? `At most ${most} do` : 'A few hundred do'}: choose fewer voxels.`;
+}
+
+/** With a capital and a full stop. */
+export function sentence(text: string): string {
   const trimmed = text.trim();
   return trimmed.charAt(0).toUpperCase() + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? '' : '.');
 }

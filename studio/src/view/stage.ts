@@ -27,6 +27,13 @@ function drawsInSoftware(): boolean {
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
+/** Whether this browser draws for pages at all. */
+export function canDraw(): boolean {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return gl !== null;
+}
+
 export class Stage {
   readonly scene = new Scene();
   /** In the model's own coordinates; turned so that its up is the scene's z. */
@@ -42,6 +49,8 @@ export class Stage {
   private wanted = false;
   private resting = 0;
   private afterDraw: (() => void)[] = [];
+  /** The graphics card has taken the picture away, or gives it back. */
+  onLost: (lost: boolean) => void = () => undefined;
 
   constructor(private readonly host: HTMLElement, label: string) {
     // Where a processor draws, smooth edges cost as much as all the rest.
@@ -60,6 +69,12 @@ export class Stage {
     this.controls.enableDamping = false;
     this.controls.addEventListener('change', () => this.draw());
     canvas.addEventListener('keydown', (event) => this.onKey(event));
+    // What was on the graphics card is put there again by three; the picture is drawn by us.
+    canvas.addEventListener('webglcontextlost', () => this.onLost(true));
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.onLost(false);
+      this.draw();
+    });
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
   }

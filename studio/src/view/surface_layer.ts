@@ -6,8 +6,30 @@ import {
 import { room } from './room';
 import type { Clip } from './tet_layer';
 
+/**
+ * Smooth normals are means of those around a vertex. Where faces lie back to back or edge-on they cancel each other, or
+ * point away from who looks: there the face's own normal is taken, which the picture's derivatives know.
+ */
+const kSoundNormal = `
+#ifdef FLAT_SHADED
+  #include <normal_fragment_begin>
+#else
+  vec3 faceNormal = normalize(cross(dFdx(vViewPosition), dFdy(vViewPosition)));
+  vec3 normal = dot(vNormal, faceNormal) < 0.0 ? -vNormal : vNormal;
+  float size = length(normal);
+  normal = size > 0.1 && dot(normal, faceNormal) > 0.25 * size ? normal / size : faceNormal;
+  vec3 nonPerturbedNormal = normal;
+#endif`;
+
+function sound(material: MeshLambertMaterial): MeshLambertMaterial {
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace('#include <normal_fragment_begin>', kSoundNormal);
+  };
+  return material;
+}
+
 export class SurfaceLayer extends Group {
-  readonly material = new MeshLambertMaterial({ side: DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  readonly material = sound(new MeshLambertMaterial({ side: DoubleSide, flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
   private readonly edgeMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.35 });
   readonly mesh = new Mesh(new BufferGeometry(), this.material);
   private wires: LineSegments | null = null;
