@@ -1,22 +1,27 @@
 // The page: what the user does becomes settings, settings become wishes to the worker, and replies become pictures.
 import { Client } from './core/client';
-import type { Catalog, MeshResult, PlayStart, Reply, Report, Slice, SoupReport, Vec3 } from './core/protocol';
+import type { Catalog, MeshResult, PlayStart, Reply, Report, Slice, SoupReport, Surface, Tets, Vec3 } from './core/protocol';
 import { Play } from './play';
 import { Source } from './source';
-import { fromAddress, kUnits, meshOptions, type Settings, Store, toAddress } from './state';
+import type { Checked } from './ui/checks';
+import { fromAddress, kUnits, materialOf, meshOptions, type Settings, Store, toAddress } from './state';
 import { Theme } from './theme';
-import { el } from './ui/dom';
+import { el, icon } from './ui/dom';
 import { acceptDrops, emptyState, kAccepted } from './ui/empty';
 import { download, downloadFiles, ExportDialog, type ExportChoice } from './ui/export_dialog';
 import { Header } from './ui/header';
 import { listenToKeys } from './ui/keys';
 import { makeNotice } from './ui/notice';
 import { Panels } from './ui/panels';
+import { Verdict } from './ui/verdict';
 import { Viewport } from './ui/viewport';
 import * as words from './ui/words';
 import { ModelView } from './view/model_view';
+import { findProblem } from './view/problems';
 import { Stage } from './view/stage';
 
+/** Milliseconds without a change, after which there is time for more. */
+const kRest = 400;
 const kUpAxis = { x: 0, y: 1, z: 2 } as const;
 
 export class App {
@@ -37,19 +42,32 @@ export class App {
   private meshDone = false;
   private meshJob = 0;
   private sliceJob = 0;
+  private accuracyJob = 0;
+  private accuracyTimer = 0;
+  private surface: Surface | null = null;
+  private mesh: Tets | null = null;
   private wishedAt = 0;
   private exportStem = '';
   /** The status line of the mesh that is shown. */
   private finished = '';
   private readonly picker = el('input', { type: 'file', accept: kAccepted, hidden: true, 'aria-label': 'Model file', onchange: () => this.pickFile() });
   private readonly notice = makeNotice();
+  private readonly verdict = new Verdict({
+    apply: (change) => {
+      this.store.set(change);
+      this.store.endStep();
+    },
+    mark: (check) => this.mark(check),
+    opened: () => this.askAccuracy(),
+  });
+  private readonly drop = el('button', { type: 'button', id: 'drop', disabled: true, onclick: () => this.startPlaying(null) }, icon('play'), 'Drop it');
   private readonly header: Header;
 
   constructor(private readonly root: HTMLElement) {
     this.viewport = new Viewport({
       view: (view) => this.store.set({ view }), look: () => this.showLook(), slice: () => this.askSlice(), fit: () => this.fit(),
       pause: () => this.play.pause(), reset: () => this.play.reset(), stop: () => this.stopPlaying(),
-    });
+    }, undefined, { buttons: [this.verdict.chip, this.drop], card: this.verdict.card });
     this.header = new Header({
       open: () => this.picker.click(), undo: () => this.store.undo(), redo: () => this.store.redo(),
       copyLink: () => void this.copyLink(), toggleTheme: () => this.theme.toggle(), export: () => this.openExport(),
@@ -100,6 +118,7 @@ export class App {
       case 'mesh': return reply.job === this.meshJob ? this.onMesh(reply.result, reply.done) : undefined;
       case 'slice': return reply.job === this.sliceJob ? this.showSlice(reply.slice) : undefined;
       case 'progress': return this.viewport.setStatus(words.ofProgress(reply.stage, reply.fraction), true);
+      case 'accuracy': return reply.job === this.accuracyJob ? this.verdict.showAccuracy(reply.accuracy) : undefined;
       case 'embed':
         this.viewport.setStatus(this.finished);
         return this.panels?.report('embedding', '', words.ofEmbedding(reply.report, this.store.now.unit));
@@ -255,6 +274,7 @@ export class App {
     this.viewport.setModel(false);
     this.viewport.setStatus('');
     this.panels?.clear();
+    this.verdict.show(null, this.store.now);
     this.root.dataset.state = '';
     this.showLook();
     this.updateButtons();
@@ -273,6 +293,27 @@ export class App {
 
   private askSlice(): void {
     if (this.meshDone) this.sliceJob = this.client.ask({ type: 'slice', slice: this.viewport.cut });
+  }
+
+  /** Takes longer than a step of a slider may, so it waits until nobody turns anything. */
+  private askAccuracy(): void {
+    clearTimeout(this.accuracyTimer);
+    if (!this.verdict.open) return;
+    this.accuracyTimer = setTimeout(() => {
+      if (this.meshDone && !this.play.on) this.accuracyJob = this.client.ask({ type: 'accuracy' });
+    }, kRest);
+  }
+
+  private mark(check: Checked | null): string {
+    const { mesh, surface: soup, report } = this;
+    if (!mesh || !soup || !report) return '';
+    const problem = check && findProblem(check.name, { mesh, soup, fidelity: report.fidelity, limit: check.limit });
+    this.view.mark(mesh, soup, problem);
+    if (problem && this.store.now.view !== 'tets') this.store.set({ view: 'tets' });
+    else this.showLook();
+    if (!problem) return '';
+    const [tets, triangles] = [problem.tets.length, problem.triangles.length / 3];
+    return tets + triangles === 0 ? 'No single tet shows it.' : tets ? `${words.count(tets, 'tet')} marked.` : `${words.count(triangles, 'triangle')} of the model marked.`;
   }
 
   private startPlaying(scene: string | null): void {
@@ -332,7 +373,10 @@ export class App {
   // --- what is shown ---------------------------------------------------------------------------------------------------
 
   private showReports(): void {
-    if (this.soup) this.panels?.showReports(this.soup, this.report);
+    if (!this.soup) return;
+    this.panels?.showReports(this.soup, this.report);
+    this.verdict.show(this.report, this.store.now);
+    this.askAccuracy();
   }
 
   private showLook(): void {
@@ -363,6 +407,7 @@ export class App {
   private updateButtons(): void {
     const ready = this.meshDone && (this.report?.quality.tet_count ?? 0) > 0;
     this.panels?.setReady(ready);
+    this.drop.disabled = !ready;
     this.exporter?.setReady(ready);
   }
 }

@@ -17,6 +17,9 @@ export interface Settings {
   cavities: 'auto' | 'fill' | 'keep';
   tets: number;
   lattice: 'five' | 'bcc';
+  /** Pieces with a smaller share of the volume are dropped. */
+  min_part: number;
+  boundary_only: 'leave' | 'split' | 'remove';
   rho: number;
   translate: Vec3;
   rotate: Vec3;
@@ -24,6 +27,8 @@ export interface Settings {
   passes: number;
   strength: number;
   snap: 'on' | 'off';
+  /** Degrees that smoothing leaves between two faces. */
+  min_angle: number;
   /** Decimal logarithm of Young's modulus in Pa. */
   stiffness: number;
   /** kg/m^3. */
@@ -35,9 +40,9 @@ export interface Settings {
 export const kDefaults: Readonly<Settings> = {
   sample: '', damage: 0, file: '', up: 'z', unit: 'm',
   voxels: 96, k: null, cavities: 'auto',
-  tets: 2000, lattice: 'five', rho: 0.5, translate: [0, 0, 0], rotate: [0, 0, 0], fit: 'off',
-  passes: 6, strength: 1, snap: 'on',
-  stiffness: 4.8, view: 'tets',
+  tets: 2000, lattice: 'five', min_part: 0.001, boundary_only: 'leave', rho: 0.5, translate: [0, 0, 0], rotate: [0, 0, 0], fit: 'off',
+  passes: 6, strength: 1, snap: 'on', min_angle: 25,
+  stiffness: 4.8, density: 1000, poisson: 0.4, view: 'tets',
 };
 
 export const kUnits: Record<Settings['unit'], { metres: number; label: string }> = {
@@ -48,7 +53,7 @@ export const kUnits: Record<Settings['unit'], { metres: number; label: string }>
 };
 
 const kChoices: Partial<Record<keyof Settings, readonly string[]>> = {
-  up: ['x', 'y', 'z'], unit: ['m', 'cm', 'mm', 'in'], cavities: ['auto', 'fill', 'keep'], lattice: ['five', 'bcc'],
+  up: ['x', 'y', 'z'], unit: ['m', 'cm', 'mm', 'in'], cavities: ['auto', 'fill', 'keep'], lattice: ['five', 'bcc'], boundary_only: ['leave', 'split', 'remove'],
   fit: ['off', 'search'], snap: ['on', 'off'], view: ['soup', 'votes', 'lattice', 'tets', 'surface'],
 };
 
@@ -57,6 +62,7 @@ export function meshOptions(s: Settings): MeshOptions {
   const options: MeshOptions = {
     voxels: s.voxels, cavities: s.cavities, tets: s.tets, lattice: s.lattice, rho_min: s.rho,
     translate_cells: s.translate, rotate: s.rotate, fit: s.fit, passes: s.passes, strength: s.strength, snap: s.snap,
+    min_part: s.min_part, boundary_only: s.boundary_only, min_angle: s.min_angle,
   };
   if (s.k !== null) options.k = s.k;
   return options;

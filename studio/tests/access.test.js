@@ -41,6 +41,12 @@ const kStates = [
     await page.click('#place > summary');
     await page.click('#panel-volume .more >> nth=0');
   }],
+  ['the verdict', '#sample=palm&tets=4000', async (page) => {
+    await settled(page);
+    await page.click('#verdict');
+    await page.click('#verdict-card summary');
+    await page.waitForSelector('#verdict-card li:has-text("overlap")');
+  }],
   ['votes', '#sample=torus&voxels=48&view=votes', async (page) => settled(page)],
   ['the export dialog', '#sample=torus&voxels=48', async (page) => {
     await settled(page);

@@ -270,3 +270,25 @@ test('a picture that the graphics card takes away is said to be gone, and comes 
     page.complaints = page.complaints.filter((text) => !/context/i.test(text));
   });
 });
+
+test('what is to look at is said with value and limit, is shown, and is mended in the page', async () => {
+  await studio.with('#sample=palm&tets=4000', async (page) => {
+    await settled(page);
+    assert.match(await page.textContent('#verdict'), /\d+ to look at/);
+    await page.click('#verdict');
+    const said = await page.textContent('#verdict-card');
+    assert.doesNotMatch(said, /--|min-angle|min-part|boundary-only|rho-min/);
+    for (const found of await page.locator('.check .found').allTextContents()) assert.match(found, /\d.*, at (most|least) \d/);
+    await page.waitForFunction(() => /overlap with the voxels inside/.test(document.getElementById('verdict-card').textContent));
+    await page.click('[data-show] >> nth=0');
+    assert.match(await page.textContent('.marked:not(:empty)'), /marked/);
+    const { job } = await state(page);
+    await page.click('[data-fix] >> nth=0');
+    await page.waitForFunction((old) => {
+      const { dataset } = document.getElementById('app');
+      return dataset.state === 'done' && dataset.job !== old;
+    }, job);
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => location.hash === '#sample=palm&tets=4000');
+  });
+});

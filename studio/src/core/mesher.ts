@@ -2,7 +2,7 @@
 // Two, because running one with other options would throw away what it remembers.
 import { type Core, CoreError, kUnreadable } from './module';
 import type {
-  Grid, Material, MeshOptions, MeshResult, Report, Slice, SliceWish, Source, SoupReport, Surface, Tets,
+  Accuracy, Grid, Material, MeshOptions, MeshResult, Report, Slice, SliceWish, Source, SoupReport, Surface, Tets,
 } from './protocol';
 
 const kCoarseVoxels = 48;
@@ -142,6 +142,11 @@ export class Mesher {
     const tets = core.indices();
     core.call('pipeline_tet_quality', pipeline, mesh, kMinDihedral, core.result);
     return { vertices, tets, angles: core.floats() };
+  }
+
+  accuracy(): Accuracy {
+    this.core.call('pipeline_accuracy', this.fine, this.core.result);
+    return this.core.json<Accuracy>();
   }
 
   private grid(pipeline: number): Grid {

@@ -16,7 +16,13 @@ const kGravity = 9.81;
 /** Triangles that a processor draws in some ten milliseconds. */
 const kMostTriangles = 10000;
 const kAllThreads = 0;
-const kMaterial = { density: 1000, poisson: 0.4, damping_time: 0.004, friction: 0.8 };
+/** Of a body that is dropped, besides what the page says of its material. */
+const kFeel = { damping_time: 0.004, friction: 0.8 };
+const kWater: Material = { density: 1000, young: 63000, poisson: 0.4 };
+/** A squeezed body that became stiff at once would fly off: its stiffness changes by at most this factor a frame, */
+const kStiffening = 1.25;
+/** and of its speed this much is left. */
+const kCalmed = 0.8;
 
 interface SceneBody {
   material?: Partial<Material>;
@@ -97,7 +103,7 @@ export class Player {
     const { wish } = this;
     this.material = material;
     this.core.number('set_thread_count', kAllThreads);
-    const title = wish?.scene ? this.loadScene(wish.scene, young) : this.dropBody(young);
+    const title = wish?.scene ? this.loadScene(wish.scene, material) : this.dropBody(material ?? kWater);
     // Steps are short, and whoever waits between them for the next loop would keep the core that draws.
     if (wish?.drawnBy === 'processor') this.core.number('set_thread_count', 1);
     return title;

@@ -62,8 +62,25 @@ export interface Quality {
   boundary_triangles: number;
   boundary_manifold: boolean;
 }
+/** How the mesh fits to the soup: `tetsoup mesh --json` has more of it. */
+export interface Fidelity {
+  mean_edge: number;
+  closed: boolean;
+  soup_volume: number;
+  volume_ratio: number;
+  soup_pieces: number;
+  mesh_pieces: number;
+  apart_pairs: number;
+  apart_share: number;
+}
+/** What only a look at every voxel and at the whole boundary tells. */
+export interface Accuracy {
+  iou_pseudo_volume: number;
+  boundary_distance_edges: { mean: number; percentile95: number };
+}
 export interface Check {
-  value: number;
+  /** Null where there is no finite one. */
+  value: number | null;
   at_least?: number;
   at_most?: number;
   passed: boolean;
@@ -96,6 +113,8 @@ export interface Report {
   smooth: { passes: number; volume_before: number; volume_after: number; snapped: boolean };
   lattice_quality: Quality;
   quality: Quality;
+  fidelity: Fidelity;
+  notes: string[];
   readiness: { passed: boolean; checks: Record<string, Check>; mass_kg: number; stable_time_step_s: number };
   seconds: Record<string, number>;
 }
@@ -197,6 +216,7 @@ export type Request =
   | { type: 'mesh'; job: number; options: MeshOptions; slice: SliceWish | null; material: Material }
   | { type: 'slice'; job: number; slice: SliceWish }
   | { type: 'embed'; job: number }
+  | { type: 'accuracy'; job: number }
   | { type: 'export'; job: number; wish: ExportWish }
   | { type: 'play'; job: number; wish: PlayWish }
   | { type: 'material'; job: number; material: Material }
@@ -219,6 +239,7 @@ export type Reply =
   | { type: 'mesh'; job: number; result: MeshResult; done: boolean }
   | { type: 'slice'; job: number; slice: Slice }
   | { type: 'embed'; job: number; report: EmbedReport }
+  | { type: 'accuracy'; job: number; accuracy: Accuracy }
   | { type: 'files'; job: number; files: OutFile[]; usage: string }
   | { type: 'playing'; job: number; start: PlayStart }
   | { type: 'frame'; frame: Frame }

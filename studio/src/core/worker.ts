@@ -116,6 +116,7 @@ async function runJob(request: Job): Promise<void> {
     case 'embed':
       needMesh();
       return reply({ type: 'embed', job, report: body.report() });
+    case 'accuracy': return mesher.finished ? reply({ type: 'accuracy', job, accuracy: mesher.accuracy() }) : undefined;
     case 'export':
       needMesh();
       return reply({ type: 'files', job, ...body.write(request.wish) });

@@ -40,7 +40,7 @@ function checks(report: Partial<Report>): HTMLElement | null {
   const all = Object.entries(report.readiness?.checks ?? {});
   return table(all.map(([name, check]) => {
     const limit = check.at_least !== undefined ? `at least ${check.at_least}` : `at most ${check.at_most}`;
-    return [name.replace(/_deg$/, ' (°)').replace(/_/g, ' '), `${Number(check.value?.toPrecision(4))}, ${limit}: ${check.passed ? 'passes' : 'fails'}`];
+    return [name.replace(/_deg$/, ' (°)').replace(/_/g, ' '), `${check.value === null ? 'no number' : Number(check.value.toPrecision(4))}, ${limit}: ${check.passed ? 'passes' : `fails. ${words.sentence(check.advice)}`}`];
   }));
 }
 

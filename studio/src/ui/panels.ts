@@ -71,7 +71,7 @@ export class Panels {
     return control.element;
   }
 
-  private number(key: 'voxels' | 'tets' | 'rho' | 'passes' | 'damage',
+  private number(key: 'voxels' | 'tets' | 'rho' | 'min_part' | 'min_angle' | 'passes' | 'damage' | 'density' | 'poisson',
                  o: { label: string; hint: string; min: number; max: number; step: number; most?: number; unit?: string; logarithmic?: boolean }): HTMLElement {
     return this.bind(slider({ id: key, ...o, change: (value) => this.store.set({ [key]: value }), done: () => this.store.endStep() }),
       (s) => s[key]);
@@ -122,6 +122,10 @@ export class Panels {
         choices: [['five', 'Five a cube'], ['bcc', 'Body-centred']], change: (lattice) => this.store.set({ lattice }) }), (s) => s.lattice),
       this.number('rho', { label: 'Share that must be inside, ρ', min: 0.05, max: 1, step: 0.05,
         hint: 'A tet stays when this share of it lies inside. Less covers more space around the model.' }),
+      this.number('min_part', { label: 'Smallest part', min: 0, max: 0.2, most: 0.99, step: 0.001,
+        hint: 'Pieces with a smaller share of the volume are dropped; 0 keeps all.' }),
+      this.bind(choice({ id: 'boundary_only', label: 'Tets without an inner vertex', hint: 'They make thin parts stiff. Split, each gets a vertex in its midst; removed, they leave notches.',
+        choices: [['leave', 'Leave'], ['split', 'Split'], ['remove', 'Remove']], change: (boundary_only) => this.store.set({ boundary_only }) }), (s) => s.boundary_only),
       this.place());
   }
 
@@ -162,7 +166,9 @@ export class Panels {
       this.number('passes', { label: 'Passes', min: 0, max: 30, most: 1000, step: 1, hint: 'How often the boundary is smoothed; 0 leaves the lattice as it is.' }),
       this.bind(toggle({ id: 'snap', label: 'Draw to the shape', hint: 'Draws the boundary to the surface of the inside. Off: it is only smoothed, and the lattice’s volume kept.',
         change: (on) => this.store.set({ snap: on ? 'on' : 'off' }) }), (s) => s.snap === 'on'),
-      this.bind(strength, (s) => s.strength));
+      this.bind(strength, (s) => s.strength),
+      this.number('min_angle', { label: 'No angle below', unit: '°', min: 0, max: 45, most: 59, step: 1,
+        hint: 'Smoothing stops where an angle between two faces would fall below this.' }));
   }
 
   private fillEmbedding(): void {
@@ -177,9 +183,12 @@ export class Panels {
       hint: 'Young’s modulus as a power of ten in pascals: 4 is jelly, 6 is rubber. It holds while playing and in files for engines.',
       change: (value) => this.store.set({ stiffness: value }), done: () => this.store.endStep() });
     this.bindings.push((s) => (likeness.textContent = `${words.pascals(10 ** s.stiffness)}: ${words.likeWhat(10 ** s.stiffness)}`));
-    const drop = this.need(el('button', { type: 'button', class: 'primary', id: 'drop', onclick: () => this.actions.play(null) }, 'Drop it'));
     const robots = el('button', { type: 'button', id: 'robots', onclick: () => this.actions.play('robots-on-tree') }, 'Robots on a tree');
-    this.put('simulation', el('div', { class: 'row' }, drop, robots), this.bind(stiffness, (s) => s.stiffness), likeness);
+    this.put('simulation', el('div', { class: 'row' }, robots), this.bind(stiffness, (s) => s.stiffness), likeness,
+      this.number('density', { label: 'Density', unit: 'kg/m³', min: 20, max: 10000, most: 100000, step: 1, logarithmic: true,
+        hint: 'Mass of a cubic metre: foam has 50, water 1,000, steel 7,800.' }),
+      this.number('poisson', { label: 'Poisson ratio', min: 0, max: 0.49, step: 0.01,
+        hint: 'How much it grows aside when it is squeezed: cork 0, most materials 0.3 to 0.4, rubber 0.49, which keeps its volume.' }));
   }
 
   private need(button: HTMLButtonElement): HTMLButtonElement {

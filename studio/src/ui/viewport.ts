@@ -38,7 +38,9 @@ export class Viewport {
   private readonly flags = new Map<string, HTMLButtonElement>();
   playTets = false;
 
-  constructor(private readonly actions: ViewportActions, views: readonly (readonly [View, string])[] = kViews) {
+  /** @param beside  What stands beside the views, and what it opens. */
+  constructor(private readonly actions: ViewportActions, views: readonly (readonly [View, string])[] = kViews,
+              private readonly beside: { buttons: readonly HTMLElement[]; card: HTMLElement | null } = { buttons: [], card: null }) {
     this.views = choice({ id: 'view', label: 'View', hint: 'What is shown; also keys 1 to 5.', choices: views, change: (view) => actions.view(view) });
     this.viewBar = strip(this.views.element);
     const fit = el('button', { type: 'button', class: 'icon', title: 'Fit to view (F)', 'aria-label': 'Fit to view', onclick: () => actions.fit() }, icon('fit'));
@@ -56,7 +58,8 @@ export class Viewport {
     this.cutTool = this.makeCutTool();
     [this.clipTool, this.clipRows] = this.makeClipTool();
     this.element = el('main', { class: 'without-model', 'aria-label': 'Model' }, this.canvas,
-      el('div', { class: 'bar top' }, this.viewBar, this.playBar, fit, this.status),
+      el('div', { class: 'bar top' }, this.viewBar, this.playBar, fit, this.status, el('div', { class: 'beside', hidden: !beside.buttons.length }, ...beside.buttons)),
+      beside.card,
       el('div', { class: 'bottom' }, el('div', {}, this.cutTool, this.clipTool), this.legend));
   }
 
@@ -137,6 +140,7 @@ export class Viewport {
   setPlaying(playing: boolean): void {
     this.playBar.hidden = !playing;
     this.viewBar.hidden = playing;
+    this.beside.buttons.forEach((button) => button.parentElement?.toggleAttribute('hidden', playing));
     this.status.setAttribute('aria-live', playing ? 'off' : 'polite');
     this.refresh();
     if (playing) this.legend.hidden = true;

@@ -105,8 +105,7 @@ export function ofSmoothing(r: Report): Sentence[] {
   const said = [say(`Smallest angle ${q.min_dihedral_deg.toFixed(0)}°, largest ${q.max_dihedral_deg.toFixed(0)}°.`, good ? 'good' : 'plain')];
   const kept = 100 * (q.volume / r.lattice.kept_volume - 1);
   said.push(say(`Volume ${Math.abs(kept) < 0.05 ? 'kept' : `${kept > 0 ? '+' : '−'}${Math.abs(kept).toFixed(1)} % against the lattice`}.`));
-  said.push(good ? say('Ready for simulation: every check passes.', 'good') : say('Some checks do not pass:', 'watch'));
-  for (const check of Object.values(r.readiness.checks)) if (!check.passed && check.advice) said.push(say(check.advice, 'watch'));
+  if (good) said.push(say('Ready for simulation: every check passes.', 'good'));
   if (q.components > 1) said.push(say(`The mesh has ${count(q.components, 'piece')}.`));
   return said;
 }

@@ -11,6 +11,8 @@ export interface Palette {
   edge: string;
   grid: string;
   obstacle: string;
+  /** What a check is about. */
+  marked: string;
   accent: string;
   /** Of bodies that play, one after the other. */
   bodies: readonly string[];
@@ -18,12 +20,12 @@ export interface Palette {
 
 export const kLight: Palette = {
   background: '#eef0f3', surface: '#c9ced6', tets: '#b9c4d0', cut: '#7fb8b4', lattice: '#c4c9d4', edge: '#1f2a37',
-  grid: '#b5bcc6', obstacle: '#8f8a7d', accent: '#0f766e',
+  grid: '#b5bcc6', obstacle: '#8f8a7d', marked: '#e0651f', accent: '#0f766e',
   bodies: ['#86bdb8', '#dba96f', '#a3aedb', '#cf9aa8'],
 };
 export const kDark: Palette = {
   background: '#14181d', surface: '#8f98a5', tets: '#7d8b9b', cut: '#3f9a93', lattice: '#838b99', edge: '#05080b',
-  grid: '#39424d', obstacle: '#7a7466', accent: '#2dd4bf',
+  grid: '#39424d', obstacle: '#7a7466', marked: '#f2813a', accent: '#2dd4bf',
   bodies: ['#4f9f98', '#c08a4c', '#7f8cc4', '#b57889'],
 };
 

@@ -6,6 +6,8 @@ import type { View } from '../state';
 import { SliceLayer } from './slice_layer';
 import type { Stage } from './stage';
 import { SurfaceLayer } from './surface_layer';
+import { TetFaces } from './tet_faces';
+import type { Problem } from './problems';
 import { type Clip, TetLayer } from './tet_layer';
 
 export interface Look {
@@ -18,6 +20,8 @@ export interface Look {
 }
 
 const kGhostOpacity = 0.16;
+/** Of the mesh around what is marked in it. */
+const kShadowOpacity = 0.3;
 /** Of the box that stands for the lattice's frame, in cells. */
 const kFrameCells = 2;
 /** Of x, y, z, and of the one that is held. */
@@ -29,6 +33,11 @@ export class ModelView {
   readonly lattice = new TetLayer();
   readonly final = new TetLayer();
   readonly slice = new SliceLayer();
+  /** What a check is about, within what is shown thinly. */
+  private readonly markedTets = new TetLayer();
+  private readonly markedTriangles = new SurfaceLayer();
+  private shadow = new SurfaceLayer();
+  private marked = false;
   readonly box = new Box3();
   private readonly frame = new Group();
   private readonly gizmo: TransformControls;
@@ -38,7 +47,7 @@ export class ModelView {
   private hasMesh = false;
 
   constructor(private readonly stage: Stage, onFrame: (translate: Vec3, rotate: Vec3) => void, onFrameDone: () => void) {
-    stage.model.add(this.soup, this.ghost, this.lattice, this.final, this.slice, this.frame);
+    stage.model.add(this.soup, this.ghost, this.lattice, this.final, this.slice, this.frame, this.markedTets, this.markedTriangles, this.shadow);
     // Seen through the model, in whose middle it is.
     this.frame.add(new LineSegments(new EdgesGeometry(new BoxGeometry(kFrameCells, kFrameCells, kFrameCells)),
       new LineBasicMaterial({ color: '#e07b28', depthTest: false, transparent: true })));
@@ -78,6 +87,17 @@ export class ModelView {
     this.hasMesh = true;
   }
 
+  /** Marks a part of the finished mesh, or of the soup; null: nothing. */
+  mark(mesh: Tets, soup: Surface, problem: Problem | null): void {
+    this.marked = problem !== null;
+    if (!problem) return;
+    const tets = new Uint32Array(4 * problem.tets.length);
+    problem.tets.forEach((t, i) => tets.set(mesh.tets.subarray(4 * t, 4 * t + 4), 4 * i));
+    this.markedTets.set({ vertices: mesh.vertices, tets, angles: null });
+    this.markedTriangles.set(soup.vertices, problem.triangles);
+    this.shadow.set(mesh.vertices, new TetFaces(mesh.tets, mesh.vertices.length / 3).boundary());
+  }
+
   setSlice(slice: Slice): void {
     this.slice.set(slice);
   }
@@ -89,6 +109,9 @@ export class ModelView {
     this.lattice.setPalette(palette, palette.lattice);
     this.final.setPalette(palette, palette.tets);
     this.slice.setDark(dark);
+    this.markedTets.setPalette(palette, palette.marked);
+    this.markedTriangles.setColors(palette.marked, palette.edge);
+    this.shadow.setColors(palette.tets, palette.edge, kShadowOpacity);
   }
 
   /** The plane of a look in the model's coordinates. */
@@ -115,6 +138,11 @@ export class ModelView {
       layer.setClip(clip);
       layer.show(mesh && wanted);
     }
+    const marks = mesh && this.marked && view === 'tets';
+    if (marks) this.final.show(false);
+    this.markedTets.show(marks);
+    this.markedTriangles.visible = this.shadow.visible = marks;
+    for (const layer of [this.markedTets, this.markedTriangles, this.shadow]) layer.setClip(clip);
     this.updateFrame(visible);
     this.stage.draw();
   }

@@ -35,6 +35,45 @@ export class TetFaces {
     return [this.tets[first + a], this.tets[first + b], this.tets[first + c]];
   }
 
+  boundary(): Uint32Array {
+    return new Uint32Array(this.boundaryFaces().flat());
+  }
+
+  boundaryFaces(): [number, number, number][] {
+    const faces: [number, number, number][] = [];
+    this.neighbours.forEach((behind, face) => behind < 0 && faces.push(this.corners(face)));
+    return faces;
+  }
+
+  /** One for each vertex of the boundary, zero for the others. */
+  boundaryVertices(vertexCount: number): Uint8Array {
+    const outer = new Uint8Array(vertexCount);
+    this.boundaryFaces().forEach((corners) => corners.forEach((v) => (outer[v] = 1)));
+    return outer;
+  }
+
+  /** For each tet the number of the piece it belongs to, by common faces, and how many tets each piece has. */
+  pieces(): { piece: Int32Array; sizes: number[] } {
+    const piece = new Int32Array(this.count).fill(-1);
+    const sizes: number[] = [];
+    for (let first = 0; first < this.count; ++first) {
+      if (piece[first] >= 0) continue;
+      const open = [first];
+      piece[first] = sizes.length;
+      let size = 0;
+      for (let tet = open.pop(); tet !== undefined; tet = open.pop()) {
+        ++size;
+        for (const other of this.neighbours.subarray(4 * tet, 4 * tet + 4)) {
+          if (other < 0 || piece[other] >= 0) continue;
+          piece[other] = sizes.length;
+          open.push(other);
+        }
+      }
+      sizes.push(size);
+    }
+    return { piece, sizes };
+  }
+
   cornersOf(faces: Uint32Array): Uint32Array {
     const corners = new Uint32Array(3 * faces.length);
     faces.forEach((face, i) => corners.set(this.corners(face), 3 * i));
