@@ -72,6 +72,10 @@ TEST_F(ModelTool, materials_become_regions_with_their_own_numbers) {
     foam += region == 1;
   }
   EXPECT_EQ(regions[1].at("tet_count"), foam);
+  const double volume = regions[1].at("volume");
+  EXPECT_GT(volume, 0);
+  EXPECT_NEAR(regions[1].at("mass").get<double>(), 80 * volume, 1e-9 * volume);
+  EXPECT_NE(outcome.out.find(" kg)"), std::string::npos) << outcome.out;
 }
 
 TEST_F(ModelTool, pins_by_box_plane_and_part_are_written_and_counted) {
@@ -227,7 +231,7 @@ TEST_F(ModelTool, a_model_in_map_coordinates_is_the_same_there_and_recentred_wit
       mesh({"-o", "there.json", "--json", "report.json", "--pin-below", "y:512.2", "--regions", "object"});
   ASSERT_EQ(there.exit_code, 0) << there.err;
   EXPECT_NE(there.out.find("--recentre"), std::string::npos);
-  ASSERT_EQ(mesh({"-o", "zero.json", "--recentre", "--pin-below", "y:512.2"}).exit_code, 0);
+  ASSERT_EQ(mesh({"-o", "zero.json", "--recentre", "--pin-below", "y:512.2", "--regions", "object"}).exit_code, 0);
   const auto json = [&](const char* name) { return Json::parse(read_text(in_folder(name))); };
   const Json near = json("near.json"), far = json("there.json"), zero = json("zero.json"), report = json("report.json");
   EXPECT_EQ(report["recentred"], false);

@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <span>
 
 #include "base/tet_geometry.h"
 #include "shapes.h"
@@ -13,29 +17,160 @@ namespace {
 
 /// Two balls that overlap along x, and which of them a triangle is of.
 struct TwoBalls {
-  TriangleSoup soup = test::joined(test::make_ball(1, {-0.8, 0, 0}), test::make_ball(1, {0.8, 0, 0}));
+  TriangleSoup soup;
   std::vector<std::uint32_t> labels;
   TetMesh mesh;
-  TwoBalls() {
-    labels.assign(soup.triangles.size() / 2, 0);
+  explicit TwoBalls(double right = 1) {
+    const TriangleSoup left = test::make_ball(1, {-0.8, 0, 0});
+    soup = test::joined(left, test::make_ball(right, {0.8, 0, 0}));
+    labels.assign(left.triangles.size(), 0);
     labels.resize(soup.triangles.size(), 1);
     MeshOptions options;
     options.distance.voxels = 48;
     mesh = mesh_soup(soup, options);
   }
+  double distance(std::size_t tet, double x) const {
+    const TetCorners p = corners_of(mesh, mesh.tets[tet]);
+    return length((p[0] + p[1] + p[2] + p[3]) * 0.25 - Vec3d{x, 0, 0});
+  }
 };
 
-TEST(Regions, tets_take_the_label_of_the_nearest_piece) {
-  const TwoBalls balls;
+/// Share of the volume whose label is that of the tet it lies in.
+template <class LabelAt>
+double label_share(const TetMesh& mesh, std::span<const std::uint32_t> labels, const LabelAt& label_at) {
+  test::Random random(3);
+  double right = 0, all = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const TetCorners p = corners_of(mesh, mesh.tets[t]);
+    constexpr int kPoints = 100;
+    const double each = signed_volume(p) / kPoints;
+    for (int i = 0; i < kPoints; ++i) {
+      std::array<double, 4> w{};
+      double sum = 0;
+      for (double& x : w) sum += x = -std::log(random.uniform(1e-12));
+      const Vec3d at = (p[0] * w[0] + p[1] * w[1] + p[2] * w[2] + p[3] * w[3]) * (1 / sum);
+      right += label_at(at) == labels[t] ? each : 0;
+      all += each;
+    }
+  }
+  return right / all;
+}
+
+/// Soups one after the other, and labels from 0.
+struct Labelled {
+  TriangleSoup soup;
+  std::vector<std::uint32_t> labels;
+  void add(const TriangleSoup& part) {
+    const std::uint32_t label = labels.empty() ? 0 : labels.back() + 1;
+    soup = soup.triangles.empty() ? part : test::joined(soup, part);
+    labels.resize(soup.triangles.size(), label);
+  }
+};
+
+TriangleSoup turned(TriangleSoup soup) {
+  for (Triangle& t : soup.triangles) std::swap(t[0], t[1]);
+  return soup;
+}
+
+TEST(Regions, tets_of_closed_parts_take_the_label_they_lie_in) {
+  const TwoBalls balls(0.9);
   const auto regions = label_tets(balls.mesh, balls.soup, balls.labels);
   ASSERT_EQ(regions.size(), balls.mesh.tets.size());
   for (std::size_t t = 0; t < regions.size(); ++t) {
-    const TetCorners p = corners_of(balls.mesh, balls.mesh.tets[t]);
-    const Vec3d c = (p[0] + p[1] + p[2] + p[3]) * 0.25;
-    const double left = std::abs(length(c - Vec3d{-0.8, 0, 0}) - 1), right = std::abs(length(c - Vec3d{0.8, 0, 0}) - 1);
-    if (std::abs(left - right) < 0.02) continue;  // The balls have flat triangles.
-    EXPECT_EQ(regions[t], left < right ? 0U : 1U) << c.x << " " << c.y << " " << c.z;
+    const double away = balls.distance(t, 0.8) - 0.9;
+    if (std::abs(away) < 0.1 || balls.distance(t, -0.8) > 1) continue;  // Cut, or by what is nearest.
+    EXPECT_EQ(regions[t], away < 0 ? 1U : 0U);  // Where both are around, the lesser one is the inner one.
   }
+}
+
+TEST(Regions, tets_of_open_parts_take_the_label_of_the_nearest) {
+  TwoBalls balls;
+  const std::size_t half = balls.soup.triangles.size() / 2;
+  for (const std::size_t gone : {2 * half - 1, half - 1}) {
+    balls.soup.triangles.erase(balls.soup.triangles.begin() + static_cast<std::ptrdiff_t>(gone));
+    balls.labels.erase(balls.labels.begin() + static_cast<std::ptrdiff_t>(gone));
+  }
+  const auto regions = label_tets(balls.mesh, balls.soup, balls.labels);
+  for (std::size_t t = 0; t < regions.size(); ++t) {
+    const double left = std::abs(balls.distance(t, -0.8) - 1), right = std::abs(balls.distance(t, 0.8) - 1);
+    if (std::abs(left - right) < 0.15) continue;
+    EXPECT_EQ(regions[t], left < right ? 0U : 1U);
+  }
+  EXPECT_EQ(fit_to_labels(balls.mesh, balls.soup, balls.labels).vertices, balls.mesh.vertices);
+}
+
+TEST(Regions, shares_of_nested_balls_are_their_volumes) {
+  Labelled nested;
+  for (const double radius : {1.0, 0.8, 0.4}) nested.add(test::make_ball(radius));
+  MeshOptions options;
+  options.lattice.tets = 2000;
+  const TetMesh mesh = mesh_soup(nested.soup, options);
+  const TetLabels shares = share_tets(mesh, nested.soup, nested.labels);
+  ASSERT_EQ(shares.size(), mesh.tets.size());
+  std::array<double, 3> volumes{};
+  for (std::size_t t = 0; t < shares.size(); ++t) {
+    double sum = 0;
+    for (const LabelShare& s : shares[t]) {
+      volumes[s.label] += static_cast<double>(s.share) * signed_volume(corners_of(mesh, mesh.tets[t]));
+      sum += static_cast<double>(s.share);
+      EXPECT_LE(s.share, shares[t].front().share);
+    }
+    EXPECT_NEAR(sum, 1, 1e-6);
+  }
+  const auto ball = [](double r) { return 4 * std::numbers::pi / 3 * r * r * r; };
+  EXPECT_NEAR(volumes[2], ball(0.4), 0.03 * ball(0.4));
+  EXPECT_NEAR(volumes[1], ball(0.8) - ball(0.4), 0.03 * ball(0.8));
+  EXPECT_EQ(largest_of(shares), label_tets(mesh, nested.soup, nested.labels));
+}
+
+TEST(Regions, a_hollow_of_a_label_is_not_in_it) {
+  const TetMesh mesh{{{0, 0, 0}, {0.1F, 0, 0}, {0, 0.1F, 0}, {0, 0, 0.1F}}, {{0, 1, 2, 3}}};
+  Labelled shell;  // A shell around what is larger than what lies around it all, and smaller than the shell's own.
+  shell.add(test::joined(test::make_ball(1), turned(test::make_ball(0.5))));
+  shell.add(test::make_ball(2));
+  EXPECT_EQ(label_tets(mesh, shell.soup, shell.labels), std::vector<std::uint32_t>({1}));
+  Labelled solid;  // Not turned: filled.
+  solid.add(test::joined(test::make_ball(1), test::make_ball(0.5)));
+  solid.add(test::make_ball(2));
+  EXPECT_EQ(label_tets(mesh, solid.soup, solid.labels), std::vector<std::uint32_t>({0}));
+}
+
+TEST(Regions, the_innermost_is_the_part_of_the_least_volume_not_the_label) {
+  // A label of two parts, of which one is large, within a part of another label.
+  const TetMesh mesh{{{0, 0, 0}, {0.1F, 0, 0}, {0, 0.1F, 0}, {0, 0, 0.1F}}, {{0, 1, 2, 3}}};
+  Labelled soup;
+  soup.add(test::make_ball(1));
+  soup.add(test::joined(test::make_ball(0.5), test::make_ball(4, {9, 0, 0})));
+  EXPECT_EQ(label_tets(mesh, soup.soup, soup.labels), std::vector<std::uint32_t>({1}));
+}
+
+TEST(Regions, windings_and_order_leave_no_trace_in_labels) {
+  TwoBalls balls(0.9);
+  const auto regions = label_tets(balls.mesh, balls.soup, balls.labels);
+  for (std::size_t t = 0; t < balls.soup.triangles.size(); t += 3)
+    std::swap(balls.soup.triangles[t][1], balls.soup.triangles[t][2]);
+  EXPECT_EQ(label_tets(balls.mesh, balls.soup, balls.labels), regions);
+}
+
+TEST(Regions, faces_between_tets_follow_the_borders_of_layers) {
+  Labelled layers;
+  for (int i = 0; i < 5; ++i) layers.add(test::make_box({0, 0, 0.2 * i}, {1, 1, 0.2 * (i + 1)}));
+  const auto layer_at = [](const Vec3d& p) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(p.z / 0.2), 0.0, 4.0));
+  };
+  MeshOptions options;
+  options.lattice.tets = 2000;
+  const TetMesh mesh = mesh_soup(layers.soup, options);
+  const TetMesh fitted = fit_to_labels(mesh, layers.soup, layers.labels, options.smooth);
+  EXPECT_LT(label_share(mesh, label_tets(mesh, layers.soup, layers.labels), layer_at), 0.93);
+  EXPECT_GT(label_share(fitted, label_tets(fitted, layers.soup, layers.labels), layer_at), 0.97);
+  const Quality before = measure_quality(mesh), after = measure_quality(fitted);
+  EXPECT_EQ(fitted.tets, mesh.tets);
+  EXPECT_EQ(after.inverted_tets, 0U);
+  EXPECT_GE(after.min_dihedral, std::min(before.min_dihedral, options.smooth.min_dihedral) - 1e-4);
+  EXPECT_NEAR(after.volume, before.volume, 0.003 * before.volume);
+  EXPECT_LT(boundary_distance(fitted, layers.soup, 0.1).mean, boundary_distance(mesh, layers.soup, 0.1).mean + 0.01);
+  EXPECT_EQ(fit_to_labels(mesh, layers.soup, layers.labels, options.smooth).vertices, fitted.vertices);
 }
 
 TEST(Regions, vertices_near_a_named_piece_are_found) {

@@ -100,14 +100,14 @@ void take_stage_times(MeshRun& run) {
 /// @param compare  Also measures what the report compares with.
 void measure(MeshRun& run, bool compare) {
   const Stopwatch watch;
-  run.quality = measure_quality(run.pipeline->smooth().mesh);
+  run.quality = measure_quality(run.mesh);
   const LatticeMesh& lattice = run.pipeline->lattice();
   const TriangleSoup& soup = run.pipeline->soup().soup;
-  run.distance = boundary_distance(run.pipeline->smooth().mesh, soup, lattice.report.mean_edge);
+  run.distance = boundary_distance(run.mesh, soup, lattice.report.mean_edge);
   if (compare) run.raw_distance = boundary_distance(lattice.mesh, soup, lattice.report.mean_edge);
-  run.iou = run.pipeline->overlap(run.pipeline->smooth().mesh);
-  run.fidelity = measure_fidelity(run.pipeline->smooth().mesh, run.pipeline->soup());
-  run.readiness = assess_readiness(run.pipeline->smooth().mesh, run.quality, run.fidelity, run.material);
+  run.iou = run.pipeline->overlap(run.mesh);
+  run.fidelity = measure_fidelity(run.mesh, run.pipeline->soup());
+  run.readiness = assess_readiness(run.mesh, run.quality, run.fidelity, run.material);
   run.seconds.quality = watch.seconds();
 }
 
@@ -160,7 +160,7 @@ void draw_preview(const std::string& path, std::optional<UpAxis> up, MeshRun& ru
   scene.soup = &pipeline.soup().soup;
   scene.volume = &pipeline.pseudo_volume();
   scene.lattice = &pipeline.lattice().mesh;
-  scene.mesh = &pipeline.smooth().mesh;
+  scene.mesh = &run.mesh;
   scene.up = up;
   scene.title = std::filesystem::path(run.input).filename().string();
   scene.captions = {
@@ -178,7 +178,7 @@ void draw_preview(const std::string& path, std::optional<UpAxis> up, MeshRun& ru
 void write_page(const MeshCommand& command, MeshRun& run, NewFiles& files) {
   ReportPage page;
   page.title = std::filesystem::path(run.input).filename().string();
-  page.mesh = &run.pipeline->smooth().mesh;
+  page.mesh = &run.mesh;
   page.soup = &run.pipeline->soup().soup;
   page.up = std::string(1, "xyz"[static_cast<std::size_t>(run.model.up)]);
   page.metres_per_unit = run.material.metres_per_unit;
@@ -235,12 +235,13 @@ void run_mesh(MeshCommand& command) {
   run.options = pipeline.options();
   run.pipeline = &pipeline;
   take_stage_times(run);
+  run.model = make_model(run, command.model, std::move(surface), bar);
+  run.mesh = run.model.mesh;
   const bool seen = !command.run.quiet || command.json || command.preview || command.page;
   if (seen) {
     bar.show("measure");
     measure(run, command.json.has_value() || command.page.has_value());
   }
-  run.model = make_model(run, command.model, std::move(surface), bar);
   if (command.calibrate) calibrate(soup, command.poisson, run, bar);
   if (command.mass) give_mass(*command.mass, run);
   run.recentred = command.model.recentre;

@@ -32,12 +32,14 @@ void drop_empty_regions(PartLabels& labels, std::vector<std::uint32_t>& tet_regi
   labels.names = std::move(kept);
 }
 
-void set_regions(TetModel& model, const ModelOptions& options, const Material& material, const TriangleSoup& soup,
-                 const Progress& progress) {
-  const bool by_parts = options.regions_by == RegionsBy::Part;
-  PartLabels labels = by_parts ? connected_parts(soup) : label_by(model.render, *options.regions_by, model.name);
+PartLabels region_labels(const TetModel& model, RegionsBy by, const TriangleSoup& soup) {
+  return by == RegionsBy::Part ? connected_parts(soup) : label_by(model.render, by, model.name);
+}
+
+void set_regions(TetModel& model, const ModelOptions& options, const Material& material, PartLabels labels,
+                 const TriangleSoup& soup, const Progress& progress) {
   model.tet_regions = label_tets(model.mesh, soup, labels.of_triangles, progress);
-  if (by_parts) drop_empty_regions(labels, model.tet_regions);
+  if (options.regions_by == RegionsBy::Part) drop_empty_regions(labels, model.tet_regions);
   model.regions.clear();
   for (const std::string& name : labels.names) {
     Region region{name, material};
@@ -93,8 +95,12 @@ TetModel make_model(const MeshRun& run, const ModelOptions& options, RenderMesh 
   model.up = options.up.value_or(usual_up_axis(run.input));
   model.render = std::move(surface);
   const TriangleSoup soup = triangles_of(model.render);
+  PartLabels labels;
+  if (options.regions_by) labels = region_labels(model, *options.regions_by, soup);
+  if (options.regions_by && options.fit_regions)
+    model.mesh = fit_to_labels(model.mesh, soup, labels.of_triangles, run.options.smooth, bar.callback());
   if (!soup.vertices.empty()) model.embedding = embed_points(model.mesh, soup, {}, bar.callback());
-  if (options.regions_by) set_regions(model, options, run.material, soup, bar.callback());
+  if (options.regions_by) set_regions(model, options, run.material, std::move(labels), soup, bar.callback());
   for (const PinWish& pin : options.pins)
     model.pins.push_back(
         {pin.name, pin.choose ? pin.choose(model.mesh) : vertices_near(model, pin.name, soup, bar.callback())});
@@ -115,15 +121,15 @@ std::string describe_model(const TetModel& model) {
     text += ".\n";
   }
   if (!model.tet_regions.empty()) {
-    std::vector<std::size_t> tets(model.regions.size(), 0);
-    for (const std::uint32_t region : model.tet_regions) ++tets[region];
+    const std::vector<RegionSize> sizes = region_sizes(model);
     text += "Regions:";
     constexpr std::size_t kMost = 12;
-    const std::size_t shown = std::min(tets.size(), kMost);
+    const std::size_t shown = std::min(sizes.size(), kMost);
     for (std::size_t r = 0; r < shown; ++r)
-      text += fmt::format("{} {} ({})", r == 0 ? "" : ",", model.regions[r].name, counted(tets[r], "tet"));
-    text += tets.size() > shown ? fmt::format(" and {} more.\n", grouped(tets.size() - shown)) : ".\n";
-    if (tets.size() == 1) text += "Note: nothing in the model tells regions apart that way; all tets are one.\n";
+      text += fmt::format("{} {} ({}, volume {:.4g}, {:.4g} kg)", r == 0 ? "" : ",", model.regions[r].name,
+                          counted(sizes[r].tet_count, "tet"), sizes[r].volume, sizes[r].mass);
+    text += sizes.size() > shown ? fmt::format(" and {} more.\n", grouped(sizes.size() - shown)) : ".\n";
+    if (sizes.size() == 1) text += "Note: nothing in the model tells regions apart that way; all tets are one.\n";
   }
   for (const VertexSet& pins : model.pins) {
     text += fmt::format("Pins '{}': {} held.\n", pins.name, counted(pins.vertices.size(), "vertex"));

@@ -31,6 +31,7 @@ struct ModelOptions {
   std::optional<UpAxis> up;          ///< Else by the input's format: y for OBJ and glTF, z for all others.
   std::optional<std::string> embed;  ///< File for the embedding.
   std::optional<RegionsBy> regions_by;
+  bool fit_regions = true;  ///< Faces of tets follow the borders between regions.
   std::vector<RegionWish> materials;
   std::vector<PinWish> pins;
   bool recentre = false;  ///< Files leave out what the vertices are counted from.

@@ -38,11 +38,12 @@ struct MeshRun {
   std::string next_step;                       ///< What to do with them, one line; empty where that is open.
   MeshOptions options;
   const Pipeline* pipeline = nullptr;  ///< Every stage has run.
-  Quality quality;                     ///< Of the final mesh.
+  TetMesh mesh;                        ///< What came out, in the input's place.
+  Quality quality;                     ///< Of it.
   BoundaryDistance distance;           ///< Of its boundary from the soup, in mean edges of the lattice,
   BoundaryDistance raw_distance;       ///< and of the lattice's.
   Fidelity fidelity;                   ///< To the soup.
-  double iou = 0;                      ///< Of the final mesh and the pseudo volume.
+  double iou = 0;                      ///< Of the mesh and the pseudo volume.
   Material material;
   TetModel model;          ///< What is written.
   bool recentred = false;  ///< Without the soup's origin.

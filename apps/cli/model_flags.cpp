@@ -147,7 +147,16 @@ void add_model_flags(CLI::App& app, ModelOptions& options) {
           if (text == word_of(by)) options.regions_by = by;
         if (!options.regions_by) throw InvalidInput("--regions " + text + ": must be object, group, material or part");
       },
-      "Mark each tet with what is nearest of the model: by its names, or\nits connected parts, part_1 the largest")
+      "Mark each tet with the part of the model that contains most of it,\nof open parts the nearest: by its names, or "
+      "its connected parts,\npart_1 the largest")
+      ->group(kGroup);
+  app.add_flag_callback(
+         "--regions-fit", [&options] { options.fit_regions = true; },
+         "Faces of tets follow the borders between closed regions, as the\nboundary follows the surface: the default")
+      ->group(kGroup);
+  app.add_flag_callback(
+         "--no-regions-fit", [&options] { options.fit_regions = false; },
+         "Faces of tets lie where they lie without regions")
       ->group(kGroup);
   add_list(
       app, "--region", "NAME=DENSITY,YOUNG,POISSON",

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tetsoup/progress.h"
+#include "tetsoup/smooth.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
@@ -18,16 +19,54 @@ struct VertexSet {
   bool operator==(const VertexSet&) const = default;
 };
 
-/// The label of the soup's triangle that is nearest to each tet's centre; among equally near ones the lowest label.
+/// How much of a tet has a label.
+struct LabelShare {
+  std::uint32_t label = 0;
+  float share = 0;  ///< Of its volume, in (0, 1].
+};
+
+/// The labels of a mesh's tets.
+struct TetLabels {
+  std::vector<std::uint32_t> first;  ///< Of each tet its first share; one more at the end.
+  std::vector<LabelShare> shares;    ///< Of a tet the largest first, of equal ones the lowest label; their sum is 1.
+
+  std::size_t size() const { return first.empty() ? 0 : first.size() - 1; }
+  std::span<const LabelShare> operator[](std::size_t tet) const {
+    return std::span(shares).subspan(first[tet], first[tet + 1] - first[tet]);
+  }
+};
+
+/// How much of every tet lies in which part of the input.
+///
+/// A place belongs to the closed part around it (every edge has an even number of triangles of that label): of several
+/// the innermost, which is the one of the least volume, and of equal ones that of the lowest label. A hollow space that
+/// a label's own shells leave is not in it. Where no closed part is around, or a triangle of an open part is nearer
+/// than any other, the nearest triangle decides. Tets that a surface may pass through are asked at 20 points.
 ///
 /// @param labels  One for every triangle of the soup.
-/// @return        One for every tet; all 0 if no triangle is usable.
+/// @return        One list for every tet; label 0 alone if no triangle is usable.
 /// @throws InvalidInput  if there are not as many labels as triangles; Cancelled.
-/// Cost: O((tets + triangles) log triangles); all threads.
+/// Cost: O((tets + triangles) log triangles); mostly on all threads.
+TetLabels share_tets(const TetMesh& mesh, const TriangleSoup& soup, std::span<const std::uint32_t> labels,
+                     const Progress& progress = {});
+
+/// The label of which each tet has most.
 std::vector<std::uint32_t> label_tets(const TetMesh& mesh, const TriangleSoup& soup,
                                       std::span<const std::uint32_t> labels, const Progress& progress = {});
 
-/// The same for the mesh's vertices.
+/// The same of what is known already.
+std::vector<std::uint32_t> largest_of(const TetLabels& labels);
+
+/// Moves the vertices so that faces of tets follow the borders between labels, as smoothing draws the boundary to the
+/// surface: layers come out as layers. The boundary keeps its shape; the limits of `options` are kept, its passes and
+/// snapping are not looked at. Where no part is closed the mesh stays as it is.
+///
+/// @throws InvalidInput  as share_tets() and smooth_tets() do; Cancelled.
+/// Cost: a few times that of share_tets().
+TetMesh fit_to_labels(const TetMesh& mesh, const TriangleSoup& soup, std::span<const std::uint32_t> labels,
+                      const SmoothOptions& options = {}, const Progress& progress = {});
+
+/// The label of the soup's triangle that is nearest to each vertex; among equally near ones the lowest label.
 std::vector<std::uint32_t> label_vertices(const TetMesh& mesh, const TriangleSoup& soup,
                                           std::span<const std::uint32_t> labels, const Progress& progress = {});
 

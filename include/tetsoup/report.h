@@ -29,7 +29,8 @@ std::string to_json(const EmbedReport& report);
 std::string to_json(const MeshOptions& options);
 std::string to_json(const SimulationReport& report);
 std::string to_json(const Energy& energy);
-/// Arrays: name, material and number of tets of every region; name and number of vertices of all pins.
+/// Arrays: name, material, number of tets, volume and mass (kg) of every region; name and number of vertices of all
+/// pins.
 std::string regions_json(const TetModel& model);
 std::string pins_json(const TetModel& model);
 

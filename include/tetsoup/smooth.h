@@ -1,6 +1,7 @@
 // tetsoup, stage 5: round the lattice's corners off, keep the volume, never harm a tet.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -87,5 +88,23 @@ SmoothResult smooth_tets(const TetMesh& mesh, const SmoothOptions& options = {},
 /// sheet shrinks at its rim. Cost: O(passes x tets), whatever the size of the grid.
 SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const SmoothOptions& options = {},
                          const Progress& progress = {});
+
+/// A point of a triangle of a mesh, and the plane that it should come to lie on.
+struct FaceAim {
+  Triangle corners{};
+  std::array<double, 3> weights{};  ///< Of the corners.
+  Vec3d normal;                     ///< Unit,
+  double offset = 0;                ///< and the plane where dot(normal, x) is this, counted from the mesh's origin.
+  double area = 0;                  ///< Of the triangle, that the point stands for.
+};
+
+/// Draws triangles of a mesh to planes, as smooth_tets() draws the boundary to a surface: every vertex moves twice to
+/// the least of what its aims and the shapes of its tets say. A boundary that is to keep its place needs aims too. All
+/// moves keep the limits of the options.
+///
+/// @throws InvalidInput  if an option is out of range or a tet of the input is not positive; Cancelled.
+/// Cost: O(tets + aims).
+TetMesh draw_faces(const TetMesh& mesh, std::span<const FaceAim> aims, const SmoothOptions& options = {},
+                   const Progress& progress = {});
 
 }  // namespace tetsoup

@@ -1,6 +1,7 @@
 // tetsoup: a tet mesh with all that a simulation engine's file may say about it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -35,11 +36,20 @@ struct TetModel {
   UpAxis up = UpAxis::Z;               ///< Of the model, for the scene it is placed in.
 };
 
+/// What a region's tets are together.
+struct RegionSize {
+  std::size_t tet_count = 0;
+  double volume = 0;  ///< In the mesh's unit,
+  double mass = 0;    ///< and in kilograms, with the region's density and the scales of its tets.
+};
+/// Of every region.
+std::vector<RegionSize> region_sizes(const TetModel& model);
+
 /// Leaves out what the vertices are counted from, so that the model lies around zero; its surface keeps its place in
 /// it.
 void recentre(TetModel& model);
 
-/// Mass in kg, with the densities of regions and the scales of tets.
+/// Mass in kg: of all regions.
 double mass_of(const TetModel& model);
 
 }  // namespace tetsoup

@@ -43,13 +43,22 @@ std::string lower(std::string text) {
 
 }  // namespace
 
-double mass_of(const TetModel& model) {
-  double mass = 0;
+std::vector<RegionSize> region_sizes(const TetModel& model) {
+  std::vector<RegionSize> sizes(model.regions.size());
   for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
     const Material& material = model.regions[region_of(model, t)].material;
-    mass += density_scale_of(model, t) * material.density * signed_volume(corners_of(model.mesh, model.mesh.tets[t])) *
-            elementary::cube(material.metres_per_unit);
+    const double volume = signed_volume(corners_of(model.mesh, model.mesh.tets[t]));
+    RegionSize& size = sizes[region_of(model, t)];
+    ++size.tet_count;
+    size.volume += volume;
+    size.mass += density_scale_of(model, t) * material.density * volume * elementary::cube(material.metres_per_unit);
   }
+  return sizes;
+}
+
+double mass_of(const TetModel& model) {
+  double mass = 0;
+  for (const RegionSize& size : region_sizes(model)) mass += size.mass;
   return mass;
 }
 

@@ -16,32 +16,6 @@ namespace {
 constexpr std::int64_t kGrain = 64;  // points
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-/// Labels of the triangles nearest to point(0), ..., point(count - 1).
-template <class Point>
-std::vector<std::uint32_t> nearest_labels(std::size_t count, const Point& point, const TriangleSoup& soup,
-                                          std::span<const std::uint32_t> labels, const Progress& progress) {
-  require(labels.size() == soup.triangles.size(), "number of labels", labels.size(), "that of the triangles");
-  StageWatch watch(progress, "regions");
-  std::vector<std::uint32_t> result(count, 0);
-  const TriangleBoxes boxes(soup, watch);
-  if (boxes.empty()) return result;
-  parallel_for(static_cast<std::int64_t>(count), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      const Vec3d p = boxes.to_unit(point(i));
-      double square = std::numeric_limits<double>::infinity();
-      float bound = std::numeric_limits<float>::infinity();
-      boxes.visit_near(to_float(p), bound, [&](std::uint32_t t) {
-        const double to_t = squared_length(p - closest_on_triangle(boxes.corners_in_unit(t), p));
-        if (to_t > square || (to_t == square && labels[t] >= result[i])) return;
-        square = to_t;
-        result[i] = labels[t];
-        bound = TriangleBoxes::bound_above(square);
-      });
-    }
-  });
-  return result;
-}
-
 /// Of every set that triangles are of: how many have more triangles, or as many and an earlier one.
 std::vector<std::uint32_t> ranks_by_size(std::span<const Triangle> triangles, Unions& sets) {
   struct Set {
@@ -72,19 +46,30 @@ std::vector<std::uint32_t> vertices_where(const TetMesh& mesh, const Holds& hold
 
 }  // namespace
 
-std::vector<std::uint32_t> label_tets(const TetMesh& mesh, const TriangleSoup& soup,
-                                      std::span<const std::uint32_t> labels, const Progress& progress) {
-  const auto centre = [&](std::size_t t) {
-    const TetCorners p = corners_of(mesh, mesh.tets[t]);
-    return (p[0] + p[1] + p[2] + p[3]) * 0.25 + (mesh.origin - soup.origin);
-  };
-  return nearest_labels(mesh.tets.size(), centre, soup, labels, progress);
-}
-
 std::vector<std::uint32_t> label_vertices(const TetMesh& mesh, const TriangleSoup& soup,
                                           std::span<const std::uint32_t> labels, const Progress& progress) {
-  const auto vertex = [&](std::size_t v) { return to_double(mesh.vertices[v]) + (mesh.origin - soup.origin); };
-  return nearest_labels(mesh.vertices.size(), vertex, soup, labels, progress);
+  require(labels.size() == soup.triangles.size(), "number of labels", labels.size(), "that of the triangles");
+  StageWatch watch(progress, "regions");
+  const std::size_t count = mesh.vertices.size();
+  std::vector<std::uint32_t> result(count, 0);
+  const TriangleBoxes boxes(soup, watch);
+  if (boxes.empty()) return result;
+  const Vec3d shift = mesh.origin - soup.origin;
+  parallel_for(static_cast<std::int64_t>(count), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      const Vec3d p = boxes.to_unit(to_double(mesh.vertices[i]) + shift);
+      double square = std::numeric_limits<double>::infinity();
+      float bound = std::numeric_limits<float>::infinity();
+      boxes.visit_near(to_float(p), bound, [&](std::uint32_t t) {
+        const double to_t = squared_length(p - closest_on_triangle(boxes.corners_in_unit(t), p));
+        if (to_t > square || (to_t == square && labels[t] >= result[i])) return;
+        square = to_t;
+        result[i] = labels[t];
+        bound = TriangleBoxes::bound_above(square);
+      });
+    }
+  });
+  return result;
 }
 
 std::vector<std::uint32_t> label_parts(const TriangleSoup& soup) {

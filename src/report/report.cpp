@@ -316,13 +316,14 @@ std::string to_json(const EmbedReport& report) {
 }
 
 std::string regions_json(const TetModel& model) {
-  std::vector<std::size_t> tets(model.regions.size(), 0);
-  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) ++tets[model.tet_regions.empty() ? 0 : model.tet_regions[t]];
+  const std::vector<RegionSize> sizes = region_sizes(model);
   Json regions = Json::array();
-  for (std::size_t r = 0; r < tets.size(); ++r) {
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
     const Region& region = model.regions[r];
     regions.push_back({{"name", region.name},
-                       {"tet_count", tets[r]},
+                       {"tet_count", sizes[r].tet_count},
+                       {"volume", sizes[r].volume},
+                       {"mass", sizes[r].mass},
                        {"density", region.material.density},
                        {"young", region.material.young},
                        {"poisson", region.material.poisson}});

@@ -5,6 +5,7 @@
 
 #include "base/bits.h"
 #include "smooth/aims.h"
+#include "smooth/draw.h"
 #include "smooth/relax.h"
 #include "smooth/volume.h"
 
@@ -17,14 +18,6 @@ constexpr double kReach = 0.5;  // Mean edges: half a tet is what density leaves
 // soup in them, thin parts of a plate), and its volume is left to the fit, unless that takes too much of it.
 constexpr double kNear = 0.1, kLacking = 0.2;
 constexpr double kShareOfPasses = 0.95;  // Of the stage's time; the rest goes into the volume.
-
-double mean_edge(const Connectivity& links, const GuardedMesh& mesh) {
-  double sum = 0, count = 0;
-  for (std::uint32_t v = 0; v < mesh.mesh().vertices.size(); ++v) {
-    for (const std::uint32_t w : links.neighbours[v]) sum += length(mesh.at(v) - mesh.at(w)), ++count;
-  }
-  return sum / count;
-}
 
 double volume_of(const GuardedMesh& mesh) {
   double sum = 0;

@@ -1,7 +1,8 @@
 #include "smooth/relax.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "smooth/local_model.h"
 
 namespace tetsoup {
 
@@ -15,33 +16,6 @@ constexpr double kPull = 300;       // Squared distance from a point of the soup
 constexpr double kFlat = 100;       // Squared distance of a corner from where its triangle's mean normal would have it.
 constexpr double kBend = 100;       // Squared distance from where the boundary would bend as it does around.
 
-/// gradient . d + d . hessian d / 2 for a move d of one vertex, in mean edges.
-struct LocalModel {
-  Vec3d gradient;
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-
-  /// weight (away + n . d)^2
-  void add_plane(const Vec3d& n, double away, double weight) {
-    gradient += n * (2 * weight * away);
-    add_square(n, 2 * weight);
-  }
-  void add_square(const Vec3d& v, double w) {
-    xx += w * v.x * v.x, xy += w * v.x * v.y, xz += w * v.x * v.z;
-    yy += w * v.y * v.y, yz += w * v.y * v.z, zz += w * v.z * v.z;
-  }
-  void add_isotropic(double w) { xx += w, yy += w, zz += w; }
-
-  /// Where the model is least: - hessian^-1 gradient, by Cholesky's way.
-  Vec3d step() const {
-    const double l21 = xy / xx, l31 = xz / xx;
-    const double d2 = yy - l21 * xy, m = yz - l31 * xy, l32 = m / d2;
-    const double d3 = zz - l31 * xz - l32 * m;
-    const double y1 = -gradient.x, y2 = -gradient.y - l21 * y1, y3 = -gradient.z - l31 * y1 - l32 * y2;
-    const double z = y3 / d3, y = y2 / d2 - l32 * z, x = y1 / xx - l21 * y - l31 * z;
-    return {x, y, z};
-  }
-};
-
 class Relaxation {
  public:
   Relaxation(const Connectivity& links, const BoundaryAims& aims, double edge, GuardedMesh& mesh)
@@ -49,7 +23,7 @@ class Relaxation {
 
   void visit(std::uint32_t v) {
     LocalModel model;
-    for (const std::uint32_t tet : links_.tets[v]) add_shape(v, tet, model);
+    for (const std::uint32_t tet : links_.tets[v]) add_shape(v, mesh_.mesh().tets[tet], mesh_, to_edges_, model);
     if (!links_.boundary_triangles[v].empty()) add_boundary(v, model);
     const Vec3d step = model.step() * edge_;
     if (std::isfinite(step.x + step.y + step.z)) mesh_.move(v, mesh_.at(v) + step);
@@ -58,27 +32,6 @@ class Relaxation {
  private:
   /// From v to w.
   Vec3d arm(const Vec3d& v, std::uint32_t w) const { return (mesh_.at(w) - v) * to_edges_; }
-
-  /// f = 1 / q^3 = S^3 / (15552 V^2) with the mean ratio q and the sum S of the squared edges. With s = grad S / S and
-  /// u = grad V / V its gradient is f (3 s - 2 u), its second derivative f (6 (s - u)(s - u)' + 18 / S), never
-  /// negative.
-  void add_shape(std::uint32_t v, std::uint32_t tet, LocalModel& model) const {
-    const Tet& corners = mesh_.mesh().tets[tet];
-    std::size_t own = 0;
-    while (corners[own] != v) ++own;
-    const auto& face = kTetFaces[own];
-    const auto corner = [&](std::size_t i) { return corners[static_cast<std::size_t>(face[i])]; };
-    const Vec3d at = mesh_.at(v), a = arm(at, corner(0)), b = arm(at, corner(1)), c = arm(at, corner(2));
-    const Vec3d normal = cross(b - a, c - a);
-    const double six_volumes = dot(normal, a);
-    const double sum = squared_length(a) + squared_length(b) + squared_length(c) + squared_length(b - a) +
-                       squared_length(c - a) + squared_length(c - b);
-    const double f = sum * sum * sum / (432 * six_volumes * six_volumes);
-    const Vec3d s = (a + b + c) * (-2 / sum), u = normal * (-1 / six_volumes);
-    model.gradient += (s * 3 - u * 2) * f;
-    model.add_square(s - u, 6 * f);
-    model.add_isotropic(18 * f / sum);
-  }
 
   void add_boundary(std::uint32_t v, LocalModel& model) const {
     const Vec3d at = mesh_.at(v);

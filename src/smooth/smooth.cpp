@@ -10,6 +10,7 @@
 #include "base/require.h"
 #include "base/tet_faces.h"
 #include "smooth/connectivity.h"
+#include "smooth/draw.h"
 #include "smooth/fairing.h"
 #include "smooth/fit.h"
 #include "smooth/guard.h"
@@ -164,6 +165,18 @@ SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const 
   report.snapped = true;
   report.volume_wanted = wanted;
   return {moving.mesh(), std::move(report)};
+}
+
+TetMesh draw_faces(const TetMesh& mesh, std::span<const FaceAim> aims, const SmoothOptions& options,
+                   const Progress& progress) {
+  check(options);
+  StageWatch watch(progress, "smooth");
+  check(mesh);
+  const Connectivity links = connect(mesh);
+  GuardedMesh moving(mesh, links, {options.min_dihedral, options.max_dihedral, options.max_edge_ratio});
+  moving.look_around(watch);
+  draw(links, aims, moving, watch);
+  return moving.mesh();
 }
 
 }  // namespace tetsoup
