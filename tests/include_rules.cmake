@@ -4,7 +4,7 @@
 # The flow. A layer sees the public headers of itself and of what stands before it, and its own private headers.
 set(layers soup bodies distance pseudo_volume lattice smooth quality readiness embed regions simulate pipeline calibrate io scene report c)
 # Public headers of a layer that has several.
-set(io_headers tet_model engines animation)
+set(io_headers tet_model engines animation label_volume)
 # Public headers without a layer; everybody sees them. They see each other.
 set(common_headers types error progress render_mesh)
 # Private folders that every layer sees.

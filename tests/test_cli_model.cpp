@@ -246,6 +246,71 @@ TEST_F(ModelTool, a_model_in_map_coordinates_is_the_same_there_and_recentred_wit
   }
 }
 
+TEST_F(ModelTool, a_file_of_points_is_told_so_and_meshed_with_a_size) {
+  std::string text;
+  for (int i = 0; i < 600; ++i) {  // Fibonacci's points on a ball.
+    const double z = 1 - (2 * i + 1) / 600.0, turn = 2.399963 * i, r = std::sqrt(1 - z * z);
+    text += "v " + std::to_string(r * std::cos(turn)) + " " + std::to_string(r * std::sin(turn)) + " " +
+            std::to_string(z) + "\n";
+  }
+  write_text(in_folder("points.obj"), text);
+  const Outcome refused = run({"mesh", "points.obj", "-o", "points.msh"});
+  EXPECT_EQ(refused.exit_code, 4);
+  EXPECT_NE(refused.err.find("holds points, not triangles (600 of them); --point-size 0.1"), std::string::npos)
+      << refused.err;
+  const Outcome meshed =
+      run({"mesh", "points.obj", "-o", "points.npz", "--point-size", "0.15", "--tets", "600", "--json", "report.json"});
+  ASSERT_EQ(meshed.exit_code, 0) << meshed.err;
+  const Json report = Json::parse(read_text(in_folder("report.json")));
+  EXPECT_EQ(report["components"], 1);
+  EXPECT_NEAR(report["volume"].get<double>(), 4.19, 0.4);
+  EXPECT_EQ(run({"field", "points.obj", "-o", "points.vti", "--point-size", "0.3", "--voxels", "24"}).exit_code, 0);
+  const Outcome faces = run({"mesh", "lamp.obj", "-o", "lamp.msh", "--point-size", "0.3"});
+  EXPECT_EQ(faces.exit_code, 2);
+  EXPECT_NE(faces.err.find("holds faces"), std::string::npos) << faces.err;
+  EXPECT_EQ(run({"mesh", "points.obj", "-o", "points.msh", "--point-size", "0"}).exit_code, 2);
+}
+
+TEST_F(ModelTool, ten_node_tets_are_written_where_a_format_has_them) {
+  const Outcome outcome = mesh({"-o", "lamp.inp", "-o", "lamp.vtu", "--order", "2"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Ten-node tets: "), std::string::npos) << outcome.out;
+  EXPECT_NE(read_text(in_folder("lamp.inp")).find("C3D10"), std::string::npos);
+  const Outcome refused = mesh({"-o", "lamp.npz", "--order", "2"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("msh, msh22, vtk, vtu, inp"), std::string::npos) << refused.err;
+  EXPECT_EQ(mesh({"-o", "lamp.inp", "--order", "3"}).exit_code, 2);
+}
+
+TEST_F(ModelTool, labelled_voxels_are_meshed_with_their_labels_as_regions) {
+  std::string text =
+      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 12 12 12\nencoding: ascii\nspacings: 1 1 1\n"
+      "Segment0_Name:=bone\nSegment0_LabelValue:=2\n\n";
+  for (int i = 0; i < 12 * 12 * 12; ++i) {
+    const auto within = [&](int lo, int hi) {
+      const auto in = [&](int c) { return c >= lo && c < hi; };
+      return in(i % 12) && in(i / 12 % 12) && in(i / 144);
+    };
+    text += within(4, 8) ? "2 " : within(1, 11) ? "1 " : "0 ";
+  }
+  write_text(in_folder("scan.nrrd"), text);
+  const Outcome outcome =
+      run({"mesh", "scan.nrrd", "-o", "scan.json", "--json", "report.json", "--region", "bone=1800"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json report = Json::parse(read_text(in_folder("report.json")));
+  const Json& regions = report["regions"];
+  ASSERT_EQ(regions.size(), 2U);
+  EXPECT_EQ(regions[0]["name"], "label_1");
+  EXPECT_EQ(regions[1]["name"], "bone");
+  EXPECT_EQ(regions[1]["density"], 1800);
+  EXPECT_NEAR(regions[1]["volume"].get<double>(), 64, 5);
+  EXPECT_NEAR(report["volume"].get<double>(), 1000, 30);
+  write_text(in_folder("empty.nrrd"), "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1 1 1\nencoding: ascii\n\n0");
+  EXPECT_EQ(run({"mesh", "empty.nrrd", "-o", "scan.msh"}).exit_code, 4);
+  write_text(in_folder("torn.nrrd"), "NRRD0004\ntype: uint8\n\n");
+  EXPECT_EQ(run({"mesh", "torn.nrrd", "-o", "scan.msh"}).exit_code, 3);
+}
+
 }  // namespace
 
 }  // namespace tetsoup::test

@@ -19,6 +19,7 @@ namespace {
 struct FieldCommand {
   std::string input;
   std::string output;
+  std::optional<double> point_size;
   bool band_only = false;
   MeshOptions options;
   RunOptions run;
@@ -35,7 +36,7 @@ void run_field(FieldCommand& command) {
   Outputs(command.input).add("-o", command.output, ".vti");
   ProgressBar bar(command.run.quiet);
   double read_seconds = 0;
-  Pipeline pipeline = open_pipeline(command.input, bar, read_seconds);
+  Pipeline pipeline = open_pipeline(command.input, command.point_size, bar, read_seconds);
   command.options.distance.mode = command.band_only ? DistanceMode::Band : DistanceMode::Full;
   command.options.memory_limit = memory_limit(command.run);
   pipeline.run_until(Stage::PseudoVolume, command.options, bar.callback());
@@ -70,6 +71,7 @@ void add_field_command(CLI::App& app) {
       ->required()
       ->option_text(" ");
   field->add_option("-o,--output", command->output, "File for the grids: .vti")->required()->option_text("OUT");
+  add_point_flag(*field, command->point_size);
   add_grid_flags(*field, command->options.distance);
   field->add_flag("--band-only", command->band_only, "Distances only where meshing needs them, infinite elsewhere")
       ->group("Voxel grid");

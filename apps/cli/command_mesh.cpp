@@ -22,6 +22,7 @@
 #include "summary.h"
 #include "tetsoup/error.h"
 #include "tetsoup/io.h"
+#include "tetsoup/label_volume.h"
 #include "tetsoup/report.h"
 
 namespace tetsoup::cli {
@@ -30,6 +31,7 @@ namespace {
 
 struct MeshCommand {
   std::string input;
+  std::optional<double> point_size;
   WantedMeshes meshes;
   ModelOptions model;
   std::optional<std::string> json;
@@ -80,6 +82,8 @@ void add_cavity_surface(Outputs& outputs, const std::string& path) {
 std::vector<PlannedMesh> check_outputs(const MeshCommand& command) {
   Outputs outputs(command.input);
   std::vector<PlannedMesh> planned = plan_meshes(command.meshes, outputs);
+  if (command.model.order == Order::Quadratic)
+    for (const PlannedMesh& mesh : planned) require_midsides(mesh);
   if (command.model.embed) add_embedding(outputs, *command.model.embed);
   if (command.cavity_surface) add_cavity_surface(outputs, *command.cavity_surface);
   if (command.preview) outputs.add("--preview", *command.preview, ".png");
@@ -116,9 +120,35 @@ RenderMesh read_surface(const MeshCommand& command, const std::vector<PlannedMes
   const bool held =
       std::any_of(planned.begin(), planned.end(), [](const PlannedMesh& mesh) { return holds_surface(mesh.format); });
   RenderMesh surface;
-  if (wants_surface(command.model, held)) surface = read_input_surface(command.input);
+  if (wants_surface(command.model, held)) surface = read_input_surface(command.input, command.point_size);
   check_names(command.model, surface);
   return surface;
+}
+
+/// What is meshed, and the input as its file describes it, where that is wanted.
+struct Shape {
+  TriangleSoup soup;
+  RenderMesh surface;
+};
+
+/// Labelled voxels: what has a label is meshed, and the labels are regions where nothing else is said.
+Shape read_voxels(MeshCommand& command) {
+  if (command.point_size) throw InvalidInput("--point-size: the input holds voxels, not points");
+  const LabelVolume volume = read_label_volume(command.input);
+  Shape shape{label_hull(volume), label_surfaces(volume)};
+  if (shape.soup.triangles.empty()) throw CannotMesh(command.input + ": no voxel has a label above 0");
+  if (!command.model.regions_by) command.model.regions_by = RegionsBy::Object;
+  check_names(command.model, shape.surface);
+  return shape;
+}
+
+Shape read_shape(MeshCommand& command, const std::vector<PlannedMesh>& planned) {
+  if (is_label_volume(command.input)) return read_voxels(command);
+  Shape shape;
+  shape.surface = read_surface(command, planned);
+  shape.soup =
+      shape.surface.vertices.empty() ? read_input_soup(command.input, command.point_size) : triangles_of(shape.surface);
+  return shape;
 }
 
 void write_cavities(const std::string& path, MeshRun& run, NewFiles& files) {
@@ -226,8 +256,7 @@ void run_mesh(MeshCommand& command) {
   run.material = command.material;
   bar.show("read");
   const Stopwatch read_watch;
-  RenderMesh surface = read_surface(command, planned);
-  const TriangleSoup soup = surface.vertices.empty() ? read_input_soup(command.input) : triangles_of(surface);
+  auto [soup, surface] = read_shape(command, planned);
   run.seconds.read = read_watch.seconds();
   Pipeline pipeline = open_pipeline(command.input, soup, bar);
   command.options.memory_limit = memory_limit(command.run);  // what is left once the soup is in memory
@@ -274,10 +303,12 @@ void add_mesh_command(CLI::App& app) {
   const auto command = std::make_shared<MeshCommand>();
   CLI::App* const mesh = app.add_subcommand("mesh", "Turn a triangle soup into a tet mesh");
   mesh->group("Commands")->footer(kExamples);
-  mesh->add_option("IN", command->input, "Triangles: .obj .stl .ply .off .gltf .glb .3mf .dae")
+  mesh->add_option("IN", command->input,
+                   "Triangles: .obj .stl .ply .off .gltf .glb .3mf .dae, or labelled\nvoxels: .nrrd .nhdr")
       ->required()
       ->option_text(" ");
   add_output_flags(*mesh, command->meshes);
+  add_point_flag(*mesh, command->point_size);
   add_grid_flags(*mesh, command->options.distance);
   add_volume_flags(*mesh, command->options.pseudo_volume);
   add_join_flag(*mesh, command->options.join);

@@ -72,14 +72,20 @@ void refuse_tets(const fs::path& path) {
 
 }  // namespace
 
-TriangleSoup read_input_soup(const fs::path& path) {
+TriangleSoup read_input_soup(const fs::path& path, std::optional<double> point_size) {
+  if (point_size) return triangles_of(read_input_surface(path, point_size));
   refuse_tets(path);
   return read_soup(path);
 }
 
-RenderMesh read_input_surface(const fs::path& path) {
+RenderMesh read_input_surface(const fs::path& path, std::optional<double> point_size) {
   refuse_tets(path);
-  return read_render_mesh(path);
+  RenderMesh surface = read_render_mesh(path);
+  if (!point_size) return surface;
+  if (!surface.face_sizes.empty())
+    throw InvalidInput(
+        fmt::format("--point-size: {} holds faces; it is for files that hold points alone", path.string()));
+  return triangles_at_points(std::move(surface), *point_size);
 }
 
 void Outputs::add(std::string_view flag, const fs::path& path) {

@@ -17,10 +17,11 @@ std::string lower_extension(const std::filesystem::path& path);
 void check_input(const std::filesystem::path& path);
 
 /// Reads a soup; a tet mesh is refused with a hint.
-TriangleSoup read_input_soup(const std::filesystem::path& path);
+/// @param point_size  Edge of the triangle that each point becomes of a file that holds only points.
+TriangleSoup read_input_soup(const std::filesystem::path& path, std::optional<double> point_size = {});
 
 /// The same with all that the file says about it.
-RenderMesh read_input_surface(const std::filesystem::path& path);
+RenderMesh read_input_surface(const std::filesystem::path& path, std::optional<double> point_size = {});
 
 /// All that one run will write.
 class Outputs {

@@ -101,6 +101,8 @@ TetModel make_model(const MeshRun& run, const ModelOptions& options, RenderMesh 
     model.mesh = fit_to_labels(model.mesh, soup, labels.of_triangles, run.options.smooth, bar.callback());
   if (!soup.vertices.empty()) model.embedding = embed_points(model.mesh, soup, {}, bar.callback());
   if (options.regions_by) set_regions(model, options, run.material, std::move(labels), soup, bar.callback());
+  if (options.order == Order::Quadratic)
+    model.midsides = place_midsides(model.mesh, run.pipeline->soup().soup, bar.callback());
   for (const PinWish& pin : options.pins)
     model.pins.push_back(
         {pin.name, pin.choose ? pin.choose(model.mesh) : vertices_near(model, pin.name, soup, bar.callback())});
@@ -118,6 +120,14 @@ std::string describe_model(const TetModel& model) {
     if (report.drawn_closer > 0)
       text += fmt::format("; {} too far off were drawn closer", grouped(report.drawn_closer));
     if (report.non_finite > 0) text += fmt::format("; {} are no points", grouped(report.non_finite));
+    text += ".\n";
+  }
+  if (!model.midsides.edges.empty()) {
+    const Midsides& midsides = model.midsides;
+    text += fmt::format("Ten-node tets: {} of edges, {} of them on the surface", counted(midsides.edges.size(), "node"),
+                        grouped(midsides.moved));
+    if (midsides.held_back > 0)
+      text += fmt::format("; {} held back, where tets would be too crooked", grouped(midsides.held_back));
     text += ".\n";
   }
   if (!model.tet_regions.empty()) {

@@ -27,7 +27,11 @@ struct PinWish {
   std::function<std::vector<std::uint32_t>(const TetMesh&)> choose;  ///< Empty: by name.
 };
 
+/// Of tets: four nodes, or ten.
+enum class Order { Linear, Quadratic };
+
 struct ModelOptions {
+  Order order = Order::Linear;
   std::optional<UpAxis> up;          ///< Else by the input's format: y for OBJ and glTF, z for all others.
   std::optional<std::string> embed;  ///< File for the embedding.
   std::optional<RegionsBy> regions_by;

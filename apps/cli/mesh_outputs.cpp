@@ -81,6 +81,15 @@ std::vector<PlannedMesh> plan_meshes(const WantedMeshes& wanted, Outputs& output
   return planned;
 }
 
+void require_midsides(const PlannedMesh& mesh) {
+  if (takes_midsides(mesh.format)) return;
+  std::string known;
+  for (const TetFormatInfo& info : tet_formats())
+    if (takes_midsides(info.format)) known += (known.empty() ? "" : ", ") + info.name;
+  throw InvalidInput(fmt::format("--order 2: {} has no place for tets of ten nodes here; formats that have are {}",
+                                 mesh.path.string(), known));
+}
+
 bool holds_surface(TetFormat format) {
   return format == TetFormat::Usd || format == TetFormat::Npz || format == TetFormat::Json;
 }

@@ -33,6 +33,9 @@ void add_output_flags(CLI::App& app, WantedMeshes& wanted);
 /// Everything about them that can be wrong is found here, before the work starts.
 std::vector<PlannedMesh> plan_meshes(const WantedMeshes& wanted, Outputs& outputs);
 
+/// @throws InvalidInput  if the format has no place for tets of ten nodes.
+void require_midsides(const PlannedMesh& mesh);
+
 /// Whether the format has a place for the input's own surface and its embedding.
 bool holds_surface(TetFormat format);
 

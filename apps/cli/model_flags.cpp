@@ -136,6 +136,11 @@ void add_pin_flags(CLI::App& app, ModelOptions& options) {
 }  // namespace
 
 void add_model_flags(CLI::App& app, ModelOptions& options) {
+  add_choice<Order>(
+      app, "--order", options.order, {{"1", Order::Linear}, {"2", Order::Quadratic}},
+      "Nodes of a tet: four, or ten, those of boundary edges on the model's\nsurface: for FEM, as .msh .vtk .vtu "
+      ".inp (1)")
+      ->group(kGroup);
   add_flag(
       app, "--embed", "FILE", [&options](const std::string& text) { options.embed = text; },
       "Where each vertex of the model lies in the tets, as .npz or\n.embedding, to move the model along")

@@ -66,4 +66,22 @@ std::vector<Vec3> deform_points(const Embedding& embedding, std::span<const Tet>
 std::vector<Vec3> deform_normals(const Embedding& embedding, const TetMesh& rest, std::span<const Vec3> positions,
                                  std::span<const Vec3> normals);
 
+/// Nodes in the middle of a mesh's edges, which make ten-node tets of it.
+struct Midsides {
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< Each once, the lower vertex first, ascending.
+  std::vector<Vec3> places;                         ///< Of every edge, counted from the mesh's origin.
+  std::size_t moved = 0;                            ///< From the middle of the edge to the surface.
+  std::size_t held_back = 0;  ///< Left between the two, or in the middle, lest a tet be too crooked.
+};
+
+/// Puts the nodes of boundary edges on the surface that the mesh was made of, all others halfway: the usual remedy for
+/// coarse tets, which are too stiff.
+///
+/// A node goes to the nearest point of the soup, at most a quarter of its edge away, where the determinants of the tets
+/// around keep .3 of what they are with straight edges; else a part of the way, or not at all.
+///
+/// @throws InvalidInput  if an index is out of range; Cancelled.
+/// Cost: O((edges + triangles) log triangles).
+Midsides place_midsides(const TetMesh& mesh, const TriangleSoup& soup, const Progress& progress = {});
+
 }  // namespace tetsoup

@@ -43,6 +43,13 @@ TriangleSoup triangles_of(const RenderMesh& mesh);
 /// The face of every triangle of triangles_of().
 std::vector<std::uint32_t> triangle_faces(const RenderMesh& mesh);
 
+/// Every point of a surface without faces as an equilateral triangle around it, across (1, 1, 1), with edges of that
+/// length: the method takes any triangles, and a cloud of points about as far apart encloses what it outlines. The
+/// points stay the first vertices, each triangle has three of its own behind them; points that are not finite have
+/// none.
+/// @throws InvalidInput  if there are faces, or the size is not above 0 and finite.
+RenderMesh triangles_at_points(RenderMesh points, double size);
+
 enum class PartKind { Object, Group, Material };
 struct PartName {
   PartKind kind = PartKind::Object;
@@ -111,6 +118,9 @@ struct TetFormatInfo {
   std::string extension;  ///< With the dot.
 };
 const std::vector<TetFormatInfo>& tet_formats();
+
+/// Whether the format has a place for tets of ten nodes (Midsides).
+bool takes_midsides(TetFormat format);
 
 /// @throws InvalidInput  listing them, if there is none of that name.
 TetFormat tet_format_named(std::string_view name);

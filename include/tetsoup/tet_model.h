@@ -30,6 +30,7 @@ struct TetModel {
   std::vector<VertexSet> pins;             ///< Vertices to be held.
   std::vector<float> stiffness_scale;  ///< Young's modulus of every tet over its material's (calibrate.h); empty: 1.
   std::vector<float> density_scale;    ///< Density likewise; empty: 1.
+  Midsides midsides;                   ///< With edges: tets of ten nodes, where the format has such.
   double stiffness_factor = 1;         ///< Instead of the former, for all tets, where a format takes one material.
   RenderMesh render;                   ///< The input's own surface,
   Embedding embedding;                 ///< and where its vertices lie in the mesh.

@@ -77,6 +77,10 @@ void require_valid(const TetModel& model) {
             "0 or the number of tets");
     for (const float scale : *scales) require(scale > 0 && std::isfinite(scale), "scale of a tet", scale, "above 0");
   }
+  require(model.midsides.places.size() == model.midsides.edges.size(), "number of nodes of edges",
+          model.midsides.places.size(), "that of the edges");
+  require(model.midsides.edges.empty() || model.midsides.edges == unique_edges(model.mesh), "edges with nodes",
+          model.midsides.edges.size(), "those of the mesh");
   for (const VertexSet& pin : model.pins)
     for (const std::uint32_t vertex : pin.vertices)
       require(vertex < vertices, "pinned vertex", vertex, "below the number of vertices");
@@ -120,6 +124,40 @@ std::vector<std::array<std::uint32_t, 2>> unique_edges(const TetMesh& mesh) {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
+}
+
+std::vector<std::array<std::uint32_t, 10>> ten_nodes(const TetModel& model) {
+  constexpr std::array<std::array<std::size_t, 2>, 6> kOrder{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+  const auto& edges = model.midsides.edges;
+  std::vector<std::array<std::uint32_t, 10>> nodes;
+  for (const Tet& tet : model.mesh.tets) {
+    auto& own = nodes.emplace_back();
+    std::copy(tet.begin(), tet.end(), own.begin());
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto [a, b] = std::minmax(tet[kOrder[e][0]], tet[kOrder[e][1]]);
+      const auto place = std::lower_bound(edges.begin(), edges.end(), std::array{a, b}) - edges.begin();
+      own[4 + e] = static_cast<std::uint32_t>(model.mesh.vertices.size() + static_cast<std::size_t>(place));
+    }
+  }
+  return nodes;
+}
+
+std::vector<Vec3d> placed_nodes(const TetModel& model) {
+  std::vector<Vec3d> points = placed_points(model.mesh.vertices, model.mesh.origin);
+  const std::vector<Vec3d> between = placed_points(model.midsides.places, model.mesh.origin);
+  points.insert(points.end(), between.begin(), between.end());
+  return points;
+}
+
+std::vector<std::uint32_t> nodes_of(const TetModel& model, const std::vector<std::uint32_t>& vertices) {
+  std::vector<std::uint8_t> is_in(model.mesh.vertices.size(), 0);
+  for (const std::uint32_t v : vertices) is_in[v] = 1;
+  std::vector<std::uint32_t> nodes = vertices;
+  for (std::size_t e = 0; e < model.midsides.edges.size(); ++e) {
+    const auto [a, b] = model.midsides.edges[e];
+    if (is_in[a] != 0 && is_in[b] != 0) nodes.push_back(static_cast<std::uint32_t>(model.mesh.vertices.size() + e));
+  }
+  return nodes;
 }
 
 LegalNames::LegalNames(std::initializer_list<std::string_view> reserved) {

@@ -39,6 +39,14 @@ std::vector<std::uint32_t> pinned_vertices(const TetModel& model);
 /// Edges of the tets, each once with the lower vertex first, ascending.
 std::vector<std::array<std::uint32_t, 2>> unique_edges(const TetMesh& mesh);
 
+/// Nodes of every tet where the model has those of edges: its corners, then between the first and the second of them,
+/// the second and third, third and first, and from these three to the fourth. They are counted behind the vertices.
+std::vector<std::array<std::uint32_t, 10>> ten_nodes(const TetModel& model);
+/// Vertices and nodes of edges in the input's place.
+std::vector<Vec3d> placed_nodes(const TetModel& model);
+/// A set of vertices, with the nodes of edges between two of them.
+std::vector<std::uint32_t> nodes_of(const TetModel& model, const std::vector<std::uint32_t>& vertices);
+
 /// Names that every format takes: letters, digits and underscores, the first a letter, at most 60 of them, no two
 /// alike whatever the case, and none of those `reserved`.
 class LegalNames {

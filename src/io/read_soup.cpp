@@ -130,8 +130,7 @@ const char* way_out(std::string_view extension) {
        "is not read: open it in Blender and export as .glb or .obj"},
       {{".splat", ".spz", ".ksplat", ".pcd", ".las", ".laz", ".xyz", ".e57"},
        "holds points, not triangles: make a surface of them first, for instance by Poisson reconstruction in MeshLab "
-       "or "
-       "Open3D"},
+       "or Open3D, or save them as .ply and have each taken as a triangle (--point-size)"},
   }};
   for (const WayOut& way : ways)
     if (std::find(way.extensions.begin(), way.extensions.end(), extension) != way.extensions.end()) return way.says;

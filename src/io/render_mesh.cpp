@@ -1,11 +1,14 @@
 // A render mesh as triangles, its parts, and as a file again.
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/require.h"
+#include "base/vec.h"
 #include "io/atomic_file.h"
 #include "io/file_names.h"
 #include "io/number_text.h"
@@ -154,6 +157,28 @@ void write_render_mesh(const std::filesystem::path& path, const RenderMesh& mesh
   append_obj(text, mesh, {mesh.vertices, mesh.normals, {}, 0, 0, mesh.origin});
   file.write(text);
   file.commit();
+}
+
+RenderMesh triangles_at_points(RenderMesh points, double size) {
+  require(points.face_sizes.empty(), "faces", points.face_sizes.size(), "none, where points are to be triangles");
+  require(size > 0 && std::isfinite(size), "size of a point", size, "above 0 and finite");
+  RenderMesh mesh;
+  mesh.origin = points.origin;
+  mesh.vertices = std::move(points.vertices);
+  mesh.parts = points.parts.empty() ? std::vector<RenderMesh::Part>(1) : std::move(points.parts);
+  const double step = size / (3 * std::numbers::sqrt2);  // (2, -1, -1) and its turns are three roots of two apart.
+  const std::size_t count = mesh.vertices.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d at = to_double(mesh.vertices[i]);
+    if (!is_finite(mesh.vertices[i])) continue;
+    for (const Vec3d& way : {Vec3d{2, -1, -1}, Vec3d{-1, 2, -1}, Vec3d{-1, -1, 2}}) {
+      mesh.corners.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back(to_float(at + way * step));
+    }
+    mesh.face_sizes.push_back(3);
+    mesh.face_parts.push_back(0);
+  }
+  return mesh;
 }
 
 }  // namespace tetsoup

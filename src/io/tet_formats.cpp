@@ -59,6 +59,11 @@ const std::vector<TetFormatInfo>& tet_formats() {
   return formats;
 }
 
+bool takes_midsides(TetFormat format) {
+  return format == TetFormat::Msh41 || format == TetFormat::Msh22 || format == TetFormat::Vtk ||
+         format == TetFormat::Vtu || format == TetFormat::Abaqus;
+}
+
 TetFormat tet_format_named(std::string_view name) {
   for (const TetFormatInfo& info : tet_formats())
     if (info.name == name) return info.format;

@@ -1,7 +1,10 @@
 // Tet meshes as text that lists vertices and tets, one function per format. Corners stay in our order everywhere: all
 // these formats take D = (b-a)x(c-a).(d-a) > 0 as positive. TetGen too: version 1.6 was seen to give only tets with
 // D > 0.
+#include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/origin.h"
 #include "base/vec.h"
@@ -13,11 +16,44 @@
 
 namespace tetsoup {
 
+namespace {
+
+/// A blank before each number, and the end of the line.
+template <class Numbers>
+void append_row(std::string& text, const Numbers& numbers) {
+  for (const std::uint32_t number : numbers) {
+    text += ' ';
+    append_number(text, number);
+  }
+  text += '\n';
+}
+
+std::uint32_t gmsh_type(const TetModel& model) {
+  return model.midsides.edges.empty() ? 4 : 11;
+}
+
+/// From 1; Gmsh has the last two of ten the other way round.
+std::vector<std::vector<std::uint32_t>> gmsh_nodes(const TetModel& model) {
+  std::vector<std::vector<std::uint32_t>> nodes;
+  if (model.midsides.edges.empty()) {
+    for (const Tet& t : model.mesh.tets) nodes.push_back({t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1});
+    return nodes;
+  }
+  for (auto tet : ten_nodes(model)) {
+    std::swap(tet[8], tet[9]);
+    for (std::uint32_t& node : tet) ++node;
+    nodes.emplace_back(tet.begin(), tet.end());
+  }
+  return nodes;
+}
+
+}  // namespace
+
 // One entity, so one node block and one element block: MuJoCo takes no other.
 std::string msh41_text(const TetModel& model) {
   const TetMesh& mesh = model.mesh;
   std::string text = text_for(mesh);
-  const std::size_t nodes = mesh.vertices.size(), tets = mesh.tets.size();
+  const std::size_t nodes = mesh.vertices.size() + model.midsides.places.size(), tets = mesh.tets.size();
   const Box3 around = box_of(mesh.vertices), box{around.lo + mesh.origin, around.hi + mesh.origin};
   text += "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n";
   append_line(text, 1, box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z, 0, 0);
@@ -25,13 +61,14 @@ std::string msh41_text(const TetModel& model) {
   append_line(text, 1, nodes, 1, nodes);
   append_line(text, 3, 1, 0, nodes);
   for (std::size_t i = 0; i < nodes; ++i) append_line(text, i + 1);
-  for (const Vec3d& v : placed_points(mesh.vertices, mesh.origin)) append_line(text, v.x, v.y, v.z);
+  for (const Vec3d& v : placed_nodes(model)) append_line(text, v.x, v.y, v.z);
   text += "$EndNodes\n$Elements\n";
   append_line(text, 1, tets, 1, tets);
-  append_line(text, 3, 1, 4, tets);
+  append_line(text, 3, 1, gmsh_type(model), tets);
+  const auto nodes_of_tets = gmsh_nodes(model);
   for (std::size_t i = 0; i < tets; ++i) {
-    const Tet& t = mesh.tets[i];
-    append_line(text, i + 1, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1);
+    append_number(text, i + 1);
+    append_row(text, nodes_of_tets[i]);
   }
   text += "$EndElements\n";
   return text;
@@ -42,17 +79,18 @@ std::string msh22_text(const TetModel& model) {
   const TetMesh& mesh = model.mesh;
   std::string text = text_for(mesh);
   text += "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n";
-  append_line(text, mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3d v = placed(mesh.vertices[i], mesh.origin);
-    append_line(text, i + 1, v.x, v.y, v.z);
-  }
+  const std::vector<Vec3d> nodes = placed_nodes(model);
+  append_line(text, nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) append_line(text, i + 1, nodes[i].x, nodes[i].y, nodes[i].z);
   text += "$EndNodes\n$Elements\n";
   append_line(text, mesh.tets.size());
+  const auto nodes_of_tets = gmsh_nodes(model);
   for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
-    const Tet& t = mesh.tets[i];
-    const std::uint32_t tag = region_of(model, i) + 1;  // Physical and entity; the type is 4.
-    append_line(text, i + 1, 4, 2, tag, tag, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1);
+    const std::uint32_t tag = region_of(model, i) + 1;
+    append_number(text, i + 1);
+    append_row(text, std::array{gmsh_type(model), 2U, tag, tag});
+    text.pop_back();
+    append_row(text, nodes_of_tets[i]);
   }
   text += "$EndElements\n";
   if (!has_regions(model)) return text;

@@ -39,7 +39,18 @@ void append_row(std::string& text, First first, Rest... rest) {
 
 void append_tets(std::string& text, const TetModel& model, const std::vector<std::uint32_t>& list,
                  const std::string& name) {
-  text += "*ELEMENT, TYPE=C3D4, ELSET=" + name + '\n';
+  const bool quadratic = !model.midsides.edges.empty();
+  text += quadratic ? "*ELEMENT, TYPE=C3D10, ELSET=" : "*ELEMENT, TYPE=C3D4, ELSET=";
+  text += name + '\n';
+  if (quadratic) {
+    const auto nodes = ten_nodes(model);
+    for (const std::uint32_t i : list) {
+      append_field(text, i + 1);
+      for (const std::uint32_t node : nodes[i]) text += ", ", append_field(text, node + 1);
+      text += '\n';
+    }
+    return;
+  }
   for (const std::uint32_t i : list) {
     const Tet& t = model.mesh.tets[i];
     append_row(text, i + 1, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1);
@@ -76,10 +87,8 @@ std::string abaqus_text(const TetModel& model) {
   if (model.stiffness_factor != 1)
     text += "** Calibrated: moduli and densities in steps, with which these tets move as many would.\n";
   text += "*NODE, NSET=NALL\n";
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3d v = placed(mesh.vertices[i], mesh.origin);
-    append_row(text, i + 1, v.x, v.y, v.z);
-  }
+  const std::vector<Vec3d> nodes = placed_nodes(model);
+  for (std::size_t i = 0; i < nodes.size(); ++i) append_row(text, i + 1, nodes[i].x, nodes[i].y, nodes[i].z);
   const auto lists = tets_by_region(model);
   for (std::size_t r = 0; r < lists.size(); ++r)
     if (!lists[r].empty()) append_tets(text, model, lists[r], regions[r]);
@@ -89,7 +98,8 @@ std::string abaqus_text(const TetModel& model) {
   for (std::size_t p = 0; p < pins.size(); ++p) {
     if (model.pins[p].vertices.empty()) continue;
     text += "*NSET, NSET=" + pins[p] + '\n';
-    append_list(text, std::span(model.pins[p].vertices), 1U, kPerLine, ", ");
+    const std::vector<std::uint32_t> held = nodes_of(model, model.pins[p].vertices);
+    append_list(text, std::span(held), 1U, kPerLine, ", ");
   }
   append_hull(text, mesh);
   for (std::size_t r = 0; r < lists.size(); ++r)

@@ -1,5 +1,6 @@
 // Tet meshes for VTK: the legacy format and XML.
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,10 +34,25 @@ bool is_far(const TetMesh& mesh) {
   return !(mesh.origin == Vec3d{});
 }
 
-std::vector<std::uint8_t> members(const VertexSet& set, std::size_t vertex_count) {
-  std::vector<std::uint8_t> is_member(vertex_count);
-  for (const std::uint32_t vertex : set.vertices) is_member[vertex] = 1;
+std::size_t node_count(const TetModel& model) {
+  return model.mesh.vertices.size() + model.midsides.places.size();
+}
+
+std::vector<std::uint8_t> members(const VertexSet& set, const TetModel& model) {
+  std::vector<std::uint8_t> is_member(node_count(model));
+  for (const std::uint32_t node : nodes_of(model, set.vertices)) is_member[node] = 1;
   return is_member;
+}
+
+constexpr char kTet = 10, kTenNodeTet = 24;  // Types of cells.
+
+/// Calls visit(nodes) for every tet.
+template <class Visit>
+void visit_cells(const TetModel& model, const Visit& visit) {
+  if (model.midsides.edges.empty())
+    for (const Tet& tet : model.mesh.tets) visit(std::span<const std::uint32_t>(tet));
+  else
+    for (const auto& nodes : ten_nodes(model)) visit(std::span<const std::uint32_t>(nodes));
 }
 
 std::vector<std::string> pin_array_names(const TetModel& model) {
@@ -62,12 +78,11 @@ void append_data(std::string& text, const TetModel& model) {
   }
   if (model.pins.empty()) return;
   text += "POINT_DATA ";
-  append_line(text, model.mesh.vertices.size());
+  append_line(text, node_count(model));
   const std::vector<std::string> names = pin_array_names(model);
   for (std::size_t i = 0; i < names.size(); ++i) {
     append_scalars(text, names[i], "int");
-    for (const std::uint8_t is_member : members(model.pins[i], model.mesh.vertices.size()))
-      append_line(text, static_cast<int>(is_member));
+    for (const std::uint8_t is_member : members(model.pins[i], model)) append_line(text, static_cast<int>(is_member));
   }
 }
 
@@ -88,7 +103,7 @@ void append_xml_data(std::string& text, const TetModel& model) {
     text += "      <PointData>\n";
     const std::vector<std::string> names = pin_array_names(model);
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const std::vector<std::uint8_t> is_member = members(model.pins[i], model.mesh.vertices.size());
+      const std::vector<std::uint8_t> is_member = members(model.pins[i], model);
       append_data_array(text, "type=\"UInt8\" Name=\"" + names[i] + '"', {is_member.begin(), is_member.end()});
     }
     text += "      </PointData>\n";
@@ -117,15 +132,20 @@ std::string vtk_text(const TetModel& model) {
   const TetMesh& mesh = model.mesh;
   std::string text = text_for(mesh);
   text += "# vtk DataFile Version 3.0\ntetsoup\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ";
-  append_number(text, mesh.vertices.size());
+  append_number(text, node_count(model));
   text += is_far(mesh) ? " double\n" : " float\n";
-  for (const Vec3d& v : placed_points(mesh.vertices, mesh.origin)) append_line(text, v.x, v.y, v.z);
+  for (const Vec3d& v : placed_nodes(model)) append_line(text, v.x, v.y, v.z);
   text += "CELLS ";
-  append_line(text, mesh.tets.size(), 5 * mesh.tets.size());
-  for (const Tet& t : mesh.tets) append_line(text, 4, t[0], t[1], t[2], t[3]);
+  const bool linear = model.midsides.edges.empty();
+  append_line(text, mesh.tets.size(), (linear ? 5 : 11) * mesh.tets.size());
+  visit_cells(model, [&](std::span<const std::uint32_t> nodes) {
+    append_number(text, nodes.size());
+    for (const std::uint32_t node : nodes) text += ' ', append_number(text, node);
+    text += '\n';
+  });
   text += "CELL_TYPES ";
   append_line(text, mesh.tets.size());
-  for (std::size_t i = 0; i < mesh.tets.size(); ++i) text += "10\n";
+  for (std::size_t i = 0; i < mesh.tets.size(); ++i) append_line(text, static_cast<int>(linear ? kTet : kTenNodeTet));
   append_data(text, model);
   return text;
 }
@@ -133,19 +153,20 @@ std::string vtk_text(const TetModel& model) {
 std::string vtu_text(const TetModel& model) {
   const TetMesh& mesh = model.mesh;
   std::string points, corners, offsets;
-  for (const Vec3d& v : placed_points(mesh.vertices, mesh.origin)) {
+  for (const Vec3d& v : placed_nodes(model)) {
     for (const double coordinate : {v.x, v.y, v.z})
       is_far(mesh) ? append_raw(points, coordinate) : append_raw(points, static_cast<float>(coordinate));
   }
-  for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
-    for (const std::uint32_t corner : mesh.tets[i]) append_raw(corners, std::int64_t{corner});
-    append_raw(offsets, static_cast<std::int64_t>(4 * (i + 1)));
-  }
+  std::int64_t offset = 0;
+  visit_cells(model, [&](std::span<const std::uint32_t> nodes) {
+    for (const std::uint32_t node : nodes) append_raw(corners, std::int64_t{node});
+    append_raw(offsets, offset += static_cast<std::int64_t>(nodes.size()));
+  });
   std::string text =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"";
-  append_number(text, mesh.vertices.size());
+  append_number(text, node_count(model));
   text += "\" NumberOfCells=\"";
   append_number(text, mesh.tets.size());
   text += "\">\n";
@@ -156,7 +177,8 @@ std::string vtu_text(const TetModel& model) {
   text += "      </Points>\n      <Cells>\n";
   append_data_array(text, "type=\"Int64\" Name=\"connectivity\"", corners);
   append_data_array(text, "type=\"Int64\" Name=\"offsets\"", offsets);
-  append_data_array(text, "type=\"UInt8\" Name=\"types\"", std::string(mesh.tets.size(), '\x0A'));
+  append_data_array(text, "type=\"UInt8\" Name=\"types\"",
+                    std::string(mesh.tets.size(), model.midsides.edges.empty() ? kTet : kTenNodeTet));
   text += "      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
   return text;
 }

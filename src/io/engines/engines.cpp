@@ -35,6 +35,7 @@ TetModel in_metres(TetModel model) {
   require(std::isfinite(unit) && unit > 0, "metres_per_unit", unit, "above 0");
   if (unit != 1) {
     scale(model.mesh.vertices, unit);
+    scale(model.midsides.places, unit);
     scale(model.render.vertices, unit);
     model.mesh.origin = model.mesh.origin * unit;
     model.render.origin = model.render.origin * unit;

@@ -64,7 +64,7 @@ std::vector<std::uint32_t> held_vertices(const TetModel& model) {
 std::string calculix_scene(const SceneInput& input) {
   constexpr std::size_t kPerLine = 8;
   std::string held;
-  const std::vector<std::uint32_t> vertices = held_vertices(input.model);
+  const std::vector<std::uint32_t> vertices = nodes_of(input.model, held_vertices(input.model));
   append_list(held, std::span(vertices), 1U, kPerLine, ", ");
   held.pop_back();
   const UpAxis up = input.model.up;
