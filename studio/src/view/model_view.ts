@@ -20,6 +20,8 @@ export interface Look {
 }
 
 const kGhostOpacity = 0.16;
+/** Where a processor draws, lines cost it several microseconds each. */
+const kMostEdges = 150000;
 /** Of the mesh around what is marked in it. */
 const kShadowOpacity = 0.3;
 /** Of the box that stands for the lattice's frame, in cells. */
@@ -47,6 +49,7 @@ export class ModelView {
   private hasMesh = false;
 
   constructor(private readonly stage: Stage, onFrame: (translate: Vec3, rotate: Vec3) => void, onFrameDone: () => void) {
+    if (stage.drawnBy === 'processor') this.soup.mostEdges = kMostEdges;
     stage.model.add(this.soup, this.ghost, this.lattice, this.final, this.slice, this.frame, this.markedTets, this.markedTriangles, this.shadow);
     // Seen through the model, in whose middle it is.
     this.frame.add(new LineSegments(new EdgesGeometry(new BoxGeometry(kFrameCells, kFrameCells, kFrameCells)),

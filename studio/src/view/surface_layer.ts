@@ -1,7 +1,7 @@
 // Triangles: the soup as it came, the surface that hangs on the tets, what bodies fall onto.
 import {
   BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Plane,
-  Vector3, WireframeGeometry,
+  Vector3,
 } from 'three';
 import { room } from './room';
 import type { Clip } from './tet_layer';
@@ -34,6 +34,8 @@ export class SurfaceLayer extends Group {
   readonly mesh = new Mesh(new BufferGeometry(), this.material);
   private wires: LineSegments | null = null;
   private wired = false;
+  /** More edges than these are not drawn. */
+  mostEdges = Infinity;
 
   constructor() {
     super();
@@ -87,10 +89,19 @@ export class SurfaceLayer extends Group {
     this.material.depthWrite = opacity === 1;
   }
 
-  setLook(edges: boolean): void {
-    this.wired = edges;
+  /** Whether its edges are few enough to be drawn: two triangles have three, where they are not loose. */
+  get drawsEdges(): boolean {
+    return (this.mesh.geometry.index?.count ?? 0) / 2 <= this.mostEdges;
+  }
+
+  setLook(wanted: boolean): void {
+    this.wired = wanted;
+    const edges = wanted && this.drawsEdges;
     if (edges && !this.wires && this.mesh.geometry.index) {
-      this.wires = new LineSegments(new WireframeGeometry(this.mesh.geometry), this.edgeMaterial);
+      const lines = new BufferGeometry();
+      lines.setAttribute('position', this.mesh.geometry.getAttribute('position'));
+      lines.setIndex(new BufferAttribute(edgesOf(this.mesh.geometry.index.array as Uint32Array, lines.getAttribute('position').count), 1));
+      this.wires = new LineSegments(lines, this.edgeMaterial);
       this.add(this.wires);
     }
     if (this.wires) this.wires.visible = edges;
@@ -106,6 +117,37 @@ export class SurfaceLayer extends Group {
     }
     this.material.clippingPlanes = this.edgeMaterial.clippingPlanes = planes;
   }
+}
+
+/** Ends of the edges of triangles, each edge once: those of each vertex to later ones are gathered, then told apart. */
+function edgesOf(triangles: Uint32Array, vertexCount: number): Uint32Array {
+  const first = new Uint32Array(vertexCount + 2);
+  const eachEdge = (take: (low: number, high: number) => void) => {
+    for (let i = 0; i < triangles.length; i += 3) {
+      const [a, b, c] = [triangles[i], triangles[i + 1], triangles[i + 2]];
+      if (a !== b) take(Math.min(a, b), Math.max(a, b));
+      if (b !== c) take(Math.min(b, c), Math.max(b, c));
+      if (c !== a) take(Math.min(c, a), Math.max(c, a));
+    }
+  };
+  eachEdge((low) => ++first[low + 2]);
+  for (let v = 2; v < first.length; ++v) first[v] += first[v - 1];
+  const others = new Uint32Array(triangles.length);
+  eachEdge((low, high) => (others[first[low + 1]++] = high));
+  const ends = new Uint32Array(2 * triangles.length);
+  let count = 0;
+  for (let v = 0; v < vertexCount; ++v) {
+    // There are few of them, so that looking at all that were taken is the fastest.
+    const begin = count;
+    for (let i = first[v]; i < first[v + 1]; ++i) {
+      let at = begin + 1;
+      while (at < count && ends[at] !== others[i]) at += 2;
+      if (at < count) continue;
+      ends[count++] = v;
+      ends[count++] = others[i];
+    }
+  }
+  return ends.slice(0, count);
 }
 
 function kept(triangles: Uint32Array, count: number): Uint32Array {
