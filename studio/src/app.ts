@@ -1,16 +1,18 @@
 // The page: what the user does becomes settings, settings become wishes to the worker, and replies become pictures.
 import { Client } from './core/client';
 import type { Catalog, MeshResult, PlayStart, Reply, Report, Slice, SoupReport, Surface, Tets, Vec3 } from './core/protocol';
+import { Address } from './address';
 import { Play } from './play';
 import { Source } from './source';
 import type { Checked } from './ui/checks';
-import { fromAddress, kUnits, materialOf, meshOptions, type Settings, Store, toAddress } from './state';
+import { fromAddress, kUnits, materialOf, meshOptions, meshSettings, type Settings, kViewKeys, Store, toAddress } from './state';
 import { Theme } from './theme';
+import { guessUp } from './up';
 import { el, icon } from './ui/dom';
 import { acceptDrops, emptyState, kAccepted } from './ui/empty';
 import { download, downloadFiles, ExportDialog, type ExportChoice } from './ui/export_dialog';
 import { Header } from './ui/header';
-import { listenToKeys } from './ui/keys';
+import { keysDialog, listenToKeys } from './ui/keys';
 import { makeNotice } from './ui/notice';
 import { Panels } from './ui/panels';
 import { Verdict } from './ui/verdict';
@@ -20,6 +22,8 @@ import { ModelView } from './view/model_view';
 import { findProblem } from './view/problems';
 import { Stage } from './view/stage';
 
+/** What can be opened, by its name. */
+const kModel = /\.(obj|stl|ply|off|gltf|glb|3mf|dae)$/i;
 /** Milliseconds without a change, after which there is time for more. */
 const kRest = 400;
 const kUpAxis = { x: 0, y: 1, z: 2 } as const;
@@ -45,12 +49,17 @@ export class App {
   private accuracyJob = 0;
   private accuracyTimer = 0;
   private surface: Surface | null = null;
+  /** Settings that the last finished mesh of this soup was made with. */
+  private meshed: Partial<Settings> | null = null;
+  private wished: Partial<Settings> | null = null;
   private mesh: Tets | null = null;
   private wishedAt = 0;
   private exportStem = '';
   /** The status line of the mesh that is shown. */
   private finished = '';
   private readonly picker = el('input', { type: 'file', accept: kAccepted, hidden: true, 'aria-label': 'Model file', onchange: () => this.pickFile() });
+  private readonly keys = keysDialog();
+  private readonly address = new Address();
   private readonly notice = makeNotice();
   private readonly verdict = new Verdict({
     apply: (change) => {
@@ -65,17 +74,21 @@ export class App {
 
   constructor(private readonly root: HTMLElement) {
     this.viewport = new Viewport({
-      view: (view) => this.store.set({ view }), look: () => this.showLook(), slice: () => this.askSlice(), fit: () => this.fit(),
-      pause: () => this.play.pause(), reset: () => this.play.reset(), stop: () => this.stopPlaying(),
+      change: (part) => this.store.set(part), done: () => this.store.endStep(), look: () => this.showLook(), fit: () => this.fitByHand(),
+      pause: () => this.play.pause(), cancel: () => this.cancel(), reset: () => this.play.reset(), stop: () => this.stopPlaying(),
     }, undefined, { buttons: [this.verdict.chip, this.drop], card: this.verdict.card });
     this.header = new Header({
       open: () => this.picker.click(), undo: () => this.store.undo(), redo: () => this.store.redo(),
-      copyLink: () => void this.copyLink(), toggleTheme: () => this.theme.toggle(), export: () => this.openExport(),
+      help: () => this.help(), copyLink: () => void this.copyLink(), toggleTheme: () => this.theme.toggle(), export: () => this.openExport(),
     });
     this.empty = emptyState(null, () => this.picker.click(), () => undefined, () => undefined);
     this.viewport.element.append(this.empty, this.notice.element);
-    this.root.append(this.header.element, el('aside', { 'aria-label': 'Settings' }), this.viewport.element, this.picker);
+    this.root.append(el('a', { class: 'skip', href: '#model', onclick: (event) => this.skip(event) }, 'Skip to the model'), this.header.element, el('aside', { 'aria-label': 'Settings' }), this.viewport.element, this.picker, this.keys);
     this.stage = new Stage(this.viewport.canvas, 'The model in 3D. Arrow keys turn it, plus and minus zoom.');
+    this.stage.onLook = (camera) => {
+      this.root.dataset.camera = camera.join(' ');
+      if (!this.play.on && this.soup) this.store.note({ camera });
+    };
     this.stage.onLost = (lost) => (lost ? this.notice.complain(words.kPictureLost) : this.notice.hide());
     this.view = new ModelView(this.stage,
       (translate, rotate) => this.store.set({ translate, rotate }), () => this.store.endStep());
@@ -96,16 +109,54 @@ export class App {
   }
 
   private listen(): void {
-    acceptDrops((file) => this.source.openFile(file));
+    acceptDrops((files, address) => void this.openDropped(files, address));
     addEventListener('hashchange', () => {
       const wanted = fromAddress(location.hash);
       if (!wanted.sample) wanted.file = this.store.now.file;
       if (toAddress(wanted) !== toAddress(this.store.now)) this.store.set(wanted);
     });
     listenToKeys({
-      undo: () => this.store.undo(), redo: () => this.store.redo(), fit: () => this.fit(),
+      undo: () => this.store.undo(), redo: () => this.store.redo(), fit: () => this.fitByHand(),
       view: (view) => this.soup && !this.play.on && this.store.set({ view }),
+      turn: () => this.soup && !this.play.on && this.turn(), cut: () => this.soup && !this.play.on && this.viewport.toggleCut(),
+      quality: () => this.soup && !this.play.on && this.store.set({ quality: this.store.now.quality === 'on' ? 'off' : 'on' }),
+      play: () => (this.play.on ? this.play.pause() : this.drop.disabled ? undefined : this.startPlaying(null)),
+      reset: () => this.play.on && this.play.reset(), leave: () => this.leave(), help: () => this.help(),
     });
+  }
+
+  private help(): void {
+    if (!this.keys.open) this.keys.showModal();
+  }
+
+  /** To the picture, or to what there is before there is one. */
+  private skip(event: Event): void {
+    event.preventDefault();
+    (this.empty.hidden ? this.stage.renderer.domElement : this.empty.querySelector('button'))?.focus();
+  }
+
+  private leave(): void {
+    if (!this.notice.element.hidden) this.notice.hide();
+    else if (this.verdict.open) this.verdict.close();
+    else if (this.play.on) this.stopPlaying();
+    else this.panels?.setGizmo(null);
+  }
+
+  /** The next axis is up. */
+  private turn(): void {
+    this.store.set({ up: ({ x: 'y', y: 'z', z: 'x' } as const)[this.store.now.up] });
+    this.store.endStep();
+  }
+
+  /** Ends what takes long. The settings become those of the mesh that is shown, if there is one. */
+  private cancel(): void {
+    this.client.cancel();
+    this.viewport.setStatus('Cancelled');
+    if (this.root.dataset.state === 'preparing') this.root.dataset.state = this.meshDone ? 'done' : '';
+    else {
+      this.root.dataset.state = 'cancelled';
+      if (this.meshed) this.store.set(this.meshed);
+    }
   }
 
   // --- what the worker says ------------------------------------------------------------------------------------------
@@ -117,7 +168,7 @@ export class App {
       case 'soup': return this.source.asks(reply.job) ? this.onSoup(reply.surface, reply.report) : undefined;
       case 'mesh': return reply.job === this.meshJob ? this.onMesh(reply.result, reply.done) : undefined;
       case 'slice': return reply.job === this.sliceJob ? this.showSlice(reply.slice) : undefined;
-      case 'progress': return this.viewport.setStatus(words.ofProgress(reply.stage, reply.fraction), true);
+      case 'progress': return this.onProgress(reply.stage, reply.fraction);
       case 'accuracy': return reply.job === this.accuracyJob ? this.verdict.showAccuracy(reply.accuracy) : undefined;
       case 'embed':
         this.viewport.setStatus(this.finished);
@@ -133,6 +184,12 @@ export class App {
     }
   }
 
+  private onProgress(stage: string, fraction: number): void {
+    const { state } = this.root.dataset;
+    if (state === 'cancelled') return;
+    this.viewport.setStatus(words.ofProgress(stage, fraction), true, state === 'busy' || state === 'coarse' || state === 'preparing');
+  }
+
   private onReady(catalog: Catalog): void {
     this.panels = new Panels(this.store, {
       open: () => this.picker.click(), sample: (name) => this.source.openSample(name), gizmo: (mode) => this.view.showFrame(mode),
@@ -145,10 +202,27 @@ export class App {
     this.exporter = new ExportDialog(catalog, (choice) => this.export(choice), () => void this.savePicture());
     this.root.append(this.exporter.element);
     this.root.dataset.threads = String(catalog.threads);
-    this.viewport.setView(this.store.now.view);
+    this.viewport.show(this.store.now);
     const served = new URLSearchParams(location.search).get('model');
     if (this.store.now.sample) void this.source.load();
     else if (served) void this.openServed(served);
+  }
+
+  /** One model at a time: what else was dropped is said. */
+  private async openDropped(files: File[], address: string): Promise<void> {
+    if (!files.length) return this.openAddress(address);
+    const known = files.filter((file) => kModel.test(file.name));
+    const first = known[0] ?? files[0];
+    this.source.openFile(first);
+    if (files.length > 1) this.notice.tell(words.ofDropped(first.name, files.length - 1));
+  }
+
+  private async openAddress(address: string): Promise<void> {
+    const name = decodeURIComponent(new URL(address, location.href).pathname.split('/').pop() || 'model');
+    this.viewport.setStatus(`Fetching ${name}`, true);
+    const bytes = await fetch(address).then((answer) => (answer.ok ? answer.arrayBuffer() : null)).catch(() => null);
+    if (bytes) this.source.openFile(new File([bytes], name));
+    else this.fail(`${name} could not be fetched: the other site does not hand it to pages, or it is not there. Save it, and drop the file.`);
   }
 
   /** The model that `tetsoup studio FILE` serves beside the page. */
@@ -160,9 +234,10 @@ export class App {
 
   private onSoup(surface: { vertices: Float32Array; triangles: Uint32Array }, report: SoupReport): void {
     this.stopPlaying();
+    this.guessUp(surface);
     this.soup = report;
     this.surface = surface;
-    this.mesh = null;
+    this.mesh = this.meshed = null;
     const another = this.source.loaded();
     this.report = null;
     this.meshDone = false;
@@ -177,19 +252,28 @@ export class App {
     this.panels?.report('embedding', '', []);
     this.showReports();
     this.stage.setUp(kUpAxis[now.up]);
-    this.viewport.setView(now.view);
+    this.viewport.show(now);
     this.showLook();
     this.stage.resize();
-    // A view that was chosen stays while triangles are taken away.
+    // A view that was chosen stays while triangles are taken away; a link has one.
     if (another) this.fit();
+    if (another && now.camera) this.stage.look(now.camera);
     this.updateButtons();
     this.askMesh();
+  }
+
+  /** Once for each file: whoever turns it afterwards knows better. */
+  private guessUp(surface: Surface): void {
+    const custom = this.source.guessed;
+    this.source.guessed = null;
+    if (custom && custom === this.store.now.up) this.store.amend({ up: guessUp(surface.vertices, custom) });
   }
 
   private onMesh(result: MeshResult, done: boolean): void {
     this.report = result.report;
     this.slice = result.slice;
     this.meshDone = done;
+    if (done) this.meshed = this.wished;
     this.mesh = result.final;
     this.view.setMesh(result);
     this.view.placeFrame(this.store.now.translate, this.store.now.rotate);
@@ -202,7 +286,7 @@ export class App {
       if (job !== this.meshJob || this.root.dataset.state === 'error') return;
       const time = performance.now() - this.wishedAt;
       this.finished = done ? `${words.count(result.report.quality.tet_count, 'tet')} in ${words.milliseconds(time)}` : '';
-      this.viewport.setStatus(this.finished || 'Coarse answer, refining', !done);
+      this.viewport.setStatus(this.finished || 'Coarse answer, refining', !done, !done);
       this.viewport.status.title = Object.entries(result.report.seconds).map(([stage, s]) => `${words.stageName(stage)}: ${words.milliseconds(1000 * s)}`).join('\n');
       Object.assign(this.root.dataset, { state: done ? 'done' : 'coarse', tets: result.report.quality.tet_count, volume: result.report.quality.volume, job: this.meshJob,
         ms: time.toFixed(1), core: result.milliseconds.toFixed(1), seconds: JSON.stringify(result.report.seconds) });
@@ -233,19 +317,19 @@ export class App {
   // --- what the user does ----------------------------------------------------------------------------------------------
 
   private onSettings(now: Settings, before: Settings): void {
-    this.notice.hide();
-    history.replaceState(null, '', toAddress(now) ? `#${toAddress(now)}` : location.pathname + location.search);
+    if (now.camera === before.camera) this.notice.hide();
+    this.address.write(toAddress(now));
     this.panels?.show(now);
     this.header.setHistory(this.store.canUndo, this.store.canRedo);
     const differs = (...keys: (keyof Settings)[]) => keys.some((key) => String(now[key]) !== String(before[key]));
-    if (differs('view')) {
-      this.viewport.setView(now.view);
+    if (differs(...kViewKeys)) {
+      this.viewport.show(now);
       this.showLook();
-      if (now.view === 'votes') this.askSlice();
+      if (now.view === 'votes' && differs('view', 'slice', 'slice_at')) this.askSlice();
     }
     if (differs('up')) {
       this.stage.setUp(kUpAxis[now.up]);
-      this.fit();
+      this.fitByHand();
     }
     if (differs('stiffness', 'density', 'poisson')) this.play.setMaterial(materialOf(now));
     if (differs('unit')) this.showReports();
@@ -285,6 +369,7 @@ export class App {
     this.stopPlaying();
     this.meshDone = false;
     this.wishedAt = performance.now();
+    this.wished = meshSettings(this.store.now);
     this.root.dataset.state = 'busy';
     this.updateButtons();
     this.panels?.report('embedding', '', []);
@@ -382,6 +467,7 @@ export class App {
   private showLook(): void {
     const { look } = this.viewport;
     this.view.show(look, !this.play.on && this.soup !== null);
+    this.viewport.setEdges(this.view.soup.drawsEdges);
     this.play.look(this.viewport.playTets);
     this.viewport.showLegend(this.play.on ? null : this.report, this.slice, this.theme.dark);
   }
@@ -397,6 +483,12 @@ export class App {
     this.view.setPalette(dark);
     this.play.view.setPalette();
     this.showLook();
+  }
+
+  /** All in the picture again, also for whoever follows a link. */
+  private fitByHand(): void {
+    this.store.note({ camera: null });
+    this.fit();
   }
 
   private fit(): void {

@@ -39,9 +39,10 @@ export class Play {
     });
   }
 
-  begin(scene: string | null): void {
+  begin(scene: string | null, keepLook = false): void {
+    this.view.keepLook(keepLook);
     this.scene = scene;
-    this.viewport.setStatus(scene ? 'Meshing the scene' : 'Preparing the body', true);
+    this.viewport.setStatus(scene ? 'Meshing the scene' : 'Preparing the body', true, scene !== null);
     const { up, material } = this.settings();
     this.client.ask({ type: 'play', wish: { scene, up, material: scene ? null : material, drawnBy: this.stage.drawnBy } });
   }
@@ -88,8 +89,9 @@ export class Play {
     this.viewport.setPaused(this.paused);
   }
 
+  /** From the beginning, seen from where it is seen now. */
   reset(): void {
-    this.begin(this.scene);
+    this.begin(this.scene, true);
   }
 
   setMaterial(material: Material): void {

@@ -19,6 +19,8 @@ export class Source {
   private asked = '';
   private first = Infinity;
   private last = 0;
+  /** The model's up is a custom, and may be guessed better once the model is there. */
+  guessed: 'y' | 'z' | null = null;
   /** Handles of files that were opened; their bytes stay on disk. */
   private readonly files = new Map<string, File>();
 
@@ -26,7 +28,8 @@ export class Source {
               private readonly actions: { loading(text: string): void; lost(file: string): void; nothing(): void }) {}
 
   openSample(name: string): void {
-    this.store.set({ sample: name, file: '', up: 'z', unit: name === 'torus' ? 'cm' : 'm', damage: 0 });
+    this.guessed = null;
+    this.store.set({ sample: name, file: '', up: 'z', unit: name === 'torus' ? 'cm' : 'm', damage: 0, camera: null });
     this.store.endStep();
   }
 
@@ -37,9 +40,10 @@ export class Source {
     const before = this.store.now;
     // What the address says holds for the file that it was made with; what another model was like does not.
     const told = new URLSearchParams(before.sample || before.file ? '' : location.hash.slice(1));
-    const up = told.has('up') ? before.up : kYUp.test(file.name) ? 'y' : 'z';
+    this.guessed = told.has('up') ? null : kYUp.test(file.name) ? 'y' : 'z';
+    const up = this.guessed ?? before.up;
     const unit = told.has('unit') ? before.unit : kMillimetres.test(file.name) ? 'mm' : 'm';
-    this.store.set({ file: file.name, sample: '', damage: 0, up, unit });
+    this.store.set({ file: file.name, sample: '', damage: 0, up, unit, camera: told.has('camera') ? before.camera : null });
     this.store.endStep();
     if (this.store.now === before) void this.load();
   }

@@ -3,7 +3,22 @@ import type { Material, MeshOptions, Vec3 } from './core/protocol';
 
 export type View = 'soup' | 'votes' | 'lattice' | 'tets' | 'surface';
 
-export interface Settings {
+/** What is seen of a model and its mesh, and how. */
+export interface ViewSettings {
+  view: View;
+  edges: 'on' | 'off';
+  quality: 'on' | 'off';
+  /** The model around the tets. */
+  ghost: 'on' | 'off';
+  cut: 'off' | 'x' | 'y' | 'z';
+  /** 0 to 1 along the axis. */
+  cut_at: number;
+  cut_side: 'high' | 'low';
+  slice: 'x' | 'y' | 'z';
+  slice_at: number;
+}
+
+export interface Settings extends ViewSettings {
   sample: string;
   /** Per cent of a sample's triangles that are missing. */
   damage: number;
@@ -34,7 +49,8 @@ export interface Settings {
   /** kg/m^3. */
   density: number;
   poisson: number;
-  view: View;
+  /** Where the camera is and where it looks; null: all is in the picture. Steps back do not move it. */
+  camera: number[] | null;
 }
 
 export const kDefaults: Readonly<Settings> = {
@@ -42,7 +58,9 @@ export const kDefaults: Readonly<Settings> = {
   voxels: 96, k: null, cavities: 'auto',
   tets: 2000, lattice: 'five', min_part: 0.001, boundary_only: 'leave', rho: 0.5, translate: [0, 0, 0], rotate: [0, 0, 0], fit: 'off',
   passes: 6, strength: 1, snap: 'on', min_angle: 25,
-  stiffness: 4.8, density: 1000, poisson: 0.4, view: 'tets',
+  stiffness: 4.8, density: 1000, poisson: 0.4,
+  view: 'tets', edges: 'on', quality: 'off', ghost: 'off', cut: 'off', cut_at: 0.5, cut_side: 'high', slice: 'y', slice_at: 0.5,
+  camera: null,
 };
 
 export const kUnits: Record<Settings['unit'], { metres: number; label: string }> = {
@@ -55,6 +73,7 @@ export const kUnits: Record<Settings['unit'], { metres: number; label: string }>
 const kChoices: Partial<Record<keyof Settings, readonly string[]>> = {
   up: ['x', 'y', 'z'], unit: ['m', 'cm', 'mm', 'in'], cavities: ['auto', 'fill', 'keep'], lattice: ['five', 'bcc'], boundary_only: ['leave', 'split', 'remove'],
   fit: ['off', 'search'], snap: ['on', 'off'], view: ['soup', 'votes', 'lattice', 'tets', 'surface'],
+  edges: ['on', 'off'], quality: ['on', 'off'], ghost: ['on', 'off'], cut: ['off', 'x', 'y', 'z'], cut_side: ['high', 'low'], slice: ['x', 'y', 'z'],
 };
 
 /** The options of meshing that these settings stand for. */
@@ -66,6 +85,14 @@ export function meshOptions(s: Settings): MeshOptions {
   };
   if (s.k !== null) options.k = s.k;
   return options;
+}
+
+const kMeshKeys = ['voxels', 'k', 'cavities', 'tets', 'lattice', 'min_part', 'boundary_only', 'rho', 'translate', 'rotate', 'fit', 'passes', 'strength',
+  'snap', 'min_angle'] as const;
+
+/** The settings that a mesh is made with. */
+export function meshSettings(s: Settings): Partial<Settings> {
+  return Object.fromEntries(kMeshKeys.map((key) => [key, s[key]]));
 }
 
 /** What falls and what is written into files is of one material. */
@@ -90,7 +117,9 @@ export function fromAddress(hash: string): Settings {
     const fallback = kDefaults[key as keyof Settings];
     const choices = kChoices[key as keyof Settings];
     const numbers = text.split(',').map(Number);
-    if (Array.isArray(fallback)) {
+    if (key === 'camera') {
+      if (numbers.length === 6 && numbers.every(Number.isFinite)) s[key] = numbers;
+    } else if (Array.isArray(fallback)) {
       if (numbers.length === 3 && numbers.every(Number.isFinite)) s[key] = numbers;
     } else if (key === 'k' || typeof fallback === 'number') {
       if (text !== '' && Number.isFinite(numbers[0])) s[key] = numbers[0];
@@ -98,6 +127,8 @@ export function fromAddress(hash: string): Settings {
   }
   return s as unknown as Settings;
 }
+
+export const kViewKeys = ['view', 'edges', 'quality', 'ghost', 'cut', 'cut_at', 'cut_side', 'slice', 'slice_at'] as const;
 
 const kMostSteps = 200;
 /** Changes of one control within this time are one step back. */
@@ -129,6 +160,11 @@ export class Store {
     this.lastTime = time;
     this.future = [];
     this.apply(now);
+  }
+
+  /** What no step goes back to: where the camera is. */
+  note(change: Pick<Settings, 'camera'>): void {
+    this.apply({ ...this.now, ...change });
   }
 
   /** What was guessed of a model that has come belongs to the step that brought it. */
@@ -167,7 +203,7 @@ export class Store {
     if (!target) return;
     to.push(this.now);
     this.lastKey = '';
-    this.apply(target);
+    this.apply({ ...target, camera: this.now.camera });
   }
 
   private apply(now: Settings): void {

@@ -27,6 +27,7 @@ export class Client {
 
   cancel(newest = ++this.job): void {
     if (this.shared) Atomics.store(this.shared, 0, newest);
+    this.send({ type: 'cancel', newest });
   }
 
   send(request: Request, transfer: Transferable[] = []): void {

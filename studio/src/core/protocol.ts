@@ -107,6 +107,8 @@ export interface Report {
     cells: Vec3;
     tet_count: number;
     thin_tets: number;
+    overlap: number;
+    overlap_unfitted: number;
     kept_volume: number;
     topology: { touching_mended: number; parts_dropped: number; bubbles_filled: number };
   };
@@ -220,6 +222,7 @@ export type Request =
   | { type: 'export'; job: number; wish: ExportWish }
   | { type: 'play'; job: number; wish: PlayWish }
   | { type: 'material'; job: number; material: Material }
+  | { type: 'cancel'; newest: number }
   | { type: 'drawn' }
   | { type: 'pause'; paused: boolean }
   | { type: 'grab'; body: number; vertex: number; target: Vec3 }

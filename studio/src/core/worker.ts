@@ -174,7 +174,10 @@ async function work(): Promise<void> {
 
 function control(request: Request): void {
   const live = core && player.playing;
-  if (request.type === 'drawn') undrawn = Math.max(0, undrawn - 1);
+  if (request.type === 'cancel') {
+    newest = request.newest;
+    mesh = null;
+  } else if (request.type === 'drawn') undrawn = Math.max(0, undrawn - 1);
   else if (request.type === 'pause') paused = request.paused;
   else if (request.type === 'stop' && core) player.stop();
   else if (request.type === 'grab' && live) player.grab(request.body, request.vertex, request.target as Vec3);

@@ -6,7 +6,7 @@ import { Theme } from '../theme';
 import { el, icon } from '../ui/dom';
 import { Viewport } from '../ui/viewport';
 import * as words from '../ui/words';
-import { kDefaults, kUnits } from '../state';
+import { kDefaults, kUnits, type ViewSettings } from '../state';
 import { ModelView } from '../view/model_view';
 import { Stage } from '../view/stage';
 import { readReport, type ReportData } from './data';
@@ -90,14 +90,16 @@ function show(root: HTMLElement, data: ReportData): void {
     if (viewport.look.view === 'tets') viewport.showAngles(quality.dihedral_histogram, viewport.look.quality);
     else viewport.hideLegend();
   };
+  let seen: ViewSettings = kDefaults;
   const none = () => undefined;
   const fit = () => stage.fit(model.box);
   const viewport = new Viewport({
-    view: (view) => {
-      viewport.setView(view);
+    change: (part) => {
+      seen = { ...seen, ...part };
+      viewport.show(seen);
       refresh();
     },
-    look: refresh, fit, slice: none, pause: none, reset: none, stop: none,
+    done: none, look: refresh, fit, pause: none, cancel: none, reset: none, stop: none,
   }, views);
   const theme = new Theme((dark) => {
     stage.setDark(dark);
@@ -117,7 +119,7 @@ function show(root: HTMLElement, data: ReportData): void {
   stage.setUp({ x: 0, y: 1, z: 2 }[data.up] ?? 2);
   viewport.setStatus('');
   viewport.setModel(true);
-  viewport.setView('tets');
+  viewport.show(seen);
   theme.apply();
   stage.resize();
   fit();

@@ -6,7 +6,7 @@ export const kAccepted = '.obj,.stl,.ply,.off,.glb,.gltf,.3mf,.dae';
 
 export function emptyState(catalog: Catalog | null, open: () => void, sample: (name: string) => void, robots: () => void): HTMLElement {
   const samples = (catalog?.samples ?? []).map((s) =>
-    el('button', { type: 'button', 'data-sample': s.name, onclick: () => sample(s.name) }, el('b', {}, s.name), el('small', {}, s.summary)));
+    el('button', { type: 'button', 'data-sample': s.name, onclick: () => sample(s.name) }, el('b', {}, s.name), el('small', {}, s.summary.replace(/; --.*$/, ''))));
   return el('section', { class: 'empty', 'aria-label': 'Begin' }, el('div', { class: 'inner' },
     el('div', { class: 'triple' },
       el('h2', {}, 'Any triangles in, a tet mesh for simulation out'),
@@ -19,22 +19,23 @@ export function emptyState(catalog: Catalog | null, open: () => void, sample: (n
     catalog && el('p', { class: 'watch-line' }, 'Or just watch', el('button', { type: 'button', id: 'watch', onclick: robots }, icon('play'), 'Four robots fall on a tree'))));
 }
 
-/** A drop anywhere on the page opens the file. */
-export function acceptDrops(take: (file: File) => void): void {
+/** A drop anywhere on the page opens files, or what lies at an address. */
+export function acceptDrops(take: (files: File[], address: string) => void): void {
   let depth = 0;
   const mark = (change: number) => {
     depth = Math.max(0, depth + change);
     document.body.classList.toggle('dropping', depth > 0);
   };
   addEventListener('dragenter', (event) => {
-    if (event.dataTransfer?.types.includes('Files')) mark(1);
+    if (event.dataTransfer?.types.some((type) => type === 'Files' || type === 'text/uri-list')) mark(1);
   });
   addEventListener('dragleave', () => mark(-1));
   addEventListener('dragover', (event) => event.preventDefault());
   addEventListener('drop', (event) => {
     event.preventDefault();
     mark(-depth);
-    const file = event.dataTransfer?.files[0];
-    if (file) take(file);
+    const address = event.dataTransfer?.getData('text/uri-list').split(/\r?\n/).find((line) => line && !line.startsWith('#')) ?? '';
+    const files = [...(event.dataTransfer?.files ?? [])];
+    if (files.length || address) take(files, address);
   });
 }

@@ -8,6 +8,7 @@ export interface HeaderActions {
   copyLink(): void;
   toggleTheme(): void;
   export(): void;
+  help(): void;
 }
 
 export class Header {
@@ -27,6 +28,7 @@ export class Header {
       el('button', { type: 'button', 'aria-label': 'Open a model', onclick: () => actions.open() }, icon('open'), el('span', { class: 'wide' }, 'Open')),
       this.name, el('span', { class: 'gap' }), this.undo, this.redo,
       button('link', 'Copy a link to this mesh', 'Copy a link to this mesh', () => actions.copyLink()),
+      el('button', { type: 'button', class: 'icon wide', title: 'Keys (?)', 'aria-label': 'Keys', onclick: () => actions.help() }, '?'),
       button('theme', 'Light or dark', 'Switch between light and dark', () => actions.toggleTheme()), this.export);
     this.setHistory(false, false);
     this.setModel('');

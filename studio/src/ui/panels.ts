@@ -1,6 +1,6 @@
 // The panels at the side, in the order of the flow: each a few controls, and what came of them in plain words.
 import type { Catalog, Report, SoupReport } from '../core/protocol';
-import { kUnits, type Settings, type Store } from '../state';
+import { kDefaults, kUnits, type Settings, type Store } from '../state';
 import { choice, type Control, select, slider, toggle } from './controls';
 import { el } from './dom';
 import * as words from './words';
@@ -43,9 +43,17 @@ export class Panels {
     this.fillSmoothing();
     this.fillEmbedding();
     this.fillSimulation();
-    this.element.append(el('p', { class: 'about' }, `tetsoup ${catalog.version} · `,
+    this.element.append(el('div', { class: 'end' }, el('button', { type: 'button', id: 'reset-settings', onclick: () => this.resetSettings() }, 'Reset settings')),
+      el('p', { class: 'about' }, `tetsoup ${catalog.version} · `,
       el('a', { href: 'licenses.txt', target: '_blank' }, 'Licences')));
     this.show(store.now);
+  }
+
+  /** As they were when the model came; the model stays, and so does the view. */
+  private resetSettings(): void {
+    const { sample, damage, file, up, unit, view, camera } = this.store.now;
+    this.store.set({ ...kDefaults, sample, damage, file, up, unit, view, camera });
+    this.store.endStep();
   }
 
   private addPanel(name: PanelName): void {

@@ -88,7 +88,7 @@ export class Verdict {
     this.accuracy.textContent = `${Math.round(100 * iou_pseudo_volume)} % overlap with the voxels inside; the surface is off by ${mean.toFixed(2)} edges of a tet on average, by less than ${percentile95.toFixed(2)} for 95 % of it.`;
   }
 
-  private close(): void {
+  close(): void {
     this.toggle(false);
     this.chip.focus();
   }

@@ -3,20 +3,26 @@ import { gradient, kAngleStops, kBandColor, kVoteStops } from '../view/colors';
 import { histogram } from '../view/histogram';
 import type { Look } from '../view/model_view';
 import type { Report, Slice } from '../core/protocol';
-import type { View } from '../state';
+import type { View, ViewSettings } from '../state';
 import { choice, type Control, slider, toggle } from './controls';
 import { el, icon } from './dom';
 
 const kViews: readonly (readonly [View, string])[] =
   [['soup', 'Soup'], ['votes', 'Votes'], ['lattice', 'Lattice'], ['tets', 'Tets'], ['surface', 'Surface']];
-const kAxes = [['0', 'x'], ['1', 'y'], ['2', 'z']] as const;
+const kAxes = [['x', 'x'], ['y', 'y'], ['z', 'z']] as const;
+
+/** Milliseconds of work after which there is a button to end it. */
+const kSlow = 600;
 
 export interface ViewportActions {
-  view(view: View): void;
+  change(part: Partial<ViewSettings>): void;
+  /** A slider was let go. */
+  done(): void;
+  /** While playing, something else shall be drawn. */
   look(): void;
-  slice(): void;
   fit(): void;
   pause(): void;
+  cancel(): void;
   reset(): void;
   stop(): void;
 }
@@ -24,10 +30,14 @@ export interface ViewportActions {
 export class Viewport {
   readonly canvas = el('div', { class: 'canvas' });
   readonly status = el('span', { class: 'status', role: 'status' });
+  private readonly cancelButton = el('button', { type: 'button', id: 'cancel', hidden: true, onclick: () => this.actions.cancel() }, 'Cancel');
+  private slow = 0;
   readonly legend = el('div', { class: 'card legend', hidden: true, 'aria-live': 'off' });
   readonly element: HTMLElement;
   readonly look: Look = { view: 'tets', edges: true, quality: false, ghost: false, clip: { on: false, axis: 0, position: 0.5, flip: false } };
   readonly cut = { axis: 1, position: 0.5 };
+  private bindings: ((v: ViewSettings) => void)[] = [];
+  private lastCut: 'x' | 'y' | 'z' = 'x';
   private readonly views: Control<View>;
   private readonly viewBar: HTMLElement;
   private readonly playBar: HTMLElement;
@@ -41,7 +51,7 @@ export class Viewport {
   /** @param beside  What stands beside the views, and what it opens. */
   constructor(private readonly actions: ViewportActions, views: readonly (readonly [View, string])[] = kViews,
               private readonly beside: { buttons: readonly HTMLElement[]; card: HTMLElement | null } = { buttons: [], card: null }) {
-    this.views = choice({ id: 'view', label: 'View', hint: 'What is shown; also keys 1 to 5.', choices: views, change: (view) => actions.view(view) });
+    this.views = choice({ id: 'view', label: 'View', hint: 'What is shown; also keys 1 to 5.', choices: views, change: (view) => actions.change({ view }) });
     this.viewBar = strip(this.views.element);
     const fit = el('button', { type: 'button', class: 'icon', title: 'Fit to view (F)', 'aria-label': 'Fit to view', onclick: () => actions.fit() }, icon('fit'));
     this.pauseButton = el('button', { type: 'button', id: 'pause', onclick: () => actions.pause() });
@@ -58,53 +68,35 @@ export class Viewport {
     this.cutTool = this.makeCutTool();
     [this.clipTool, this.clipRows] = this.makeClipTool();
     this.element = el('main', { class: 'without-model', 'aria-label': 'Model' }, this.canvas,
-      el('div', { class: 'bar top' }, this.viewBar, this.playBar, fit, this.status, el('div', { class: 'beside', hidden: !beside.buttons.length }, ...beside.buttons)),
+      el('div', { class: 'bar top' }, this.viewBar, this.playBar, fit, this.status, this.cancelButton, el('div', { class: 'beside', hidden: !beside.buttons.length }, ...beside.buttons)),
       beside.card,
       el('div', { class: 'bottom' }, el('div', {}, this.cutTool, this.clipTool), this.legend));
   }
 
   private makeCutTool(): HTMLElement {
     const position = slider({ id: 'slice', label: 'Place of the slice', hint: '', min: 0, max: 1, step: 0.005,
-      change: (value) => {
-        this.cut.position = value;
-        this.actions.slice();
-      }, done: () => undefined });
-    position.show(this.cut.position);
-    const axis = choice({ id: 'slice-axis', label: 'Slice across', hint: '', choices: kAxes,
-      change: (value: string) => {
-        this.cut.axis = Number(value);
-        this.actions.slice();
-      } });
-    axis.show('1');
+      change: (slice_at) => this.actions.change({ slice_at }), done: () => this.actions.done() });
+    const axis = choice({ id: 'slice-axis', label: 'Slice across', hint: '', choices: kAxes, change: (slice) => this.actions.change({ slice }) });
+    this.bindings.push((v) => position.show(v.slice_at), (v) => axis.show(v.slice));
     return el('div', { class: 'card tool', hidden: true }, el('div', { class: 'line' }, 'Slice across', strip(axis.element)), bare(position.element));
   }
 
   private makeClipTool(): [HTMLElement, HTMLElement] {
-    const { look } = this;
     const flag = (key: 'edges' | 'quality' | 'ghost', text: string, hint: string) => {
-      const button = el('button', { type: 'button', 'aria-pressed': String(look[key]), title: hint, 'data-flag': key,
-        onclick: () => {
-          look[key] = !look[key];
-          button.setAttribute('aria-pressed', String(look[key]));
-          this.actions.look();
-        } }, text);
+      const button = el('button', { type: 'button', title: hint, 'data-flag': key,
+        onclick: () => this.actions.change({ [key]: button.getAttribute('aria-pressed') === 'true' ? 'off' : 'on' }) }, text);
       this.flags.set(key, button);
+      this.bindings.push((v) => button.setAttribute('aria-pressed', String(v[key] === 'on')));
       return button;
     };
-    const change = (part: Partial<Look['clip']>) => {
-      Object.assign(look.clip, part);
-      this.refresh();
-      this.actions.look();
-    };
-    const on = toggle({ id: 'clip', label: 'Cut away', hint: 'Hides whole tets on one side of a plane; teal faces lie inside.', change: (value) => change({ on: value }) });
-    const axis = choice({ id: 'clip-axis', label: 'Cut across', hint: '', choices: kAxes, change: (value: string) => change({ axis: Number(value) }) });
-    axis.show('0');
-    const position = slider({ id: 'clip-position', label: 'Place of the cut', hint: '', min: 0, max: 1, step: 0.005, change: (value) => change({ position: value }), done: () => undefined });
-    position.show(0.5);
-    const flip = el('button', { type: 'button', 'aria-pressed': 'false', onclick: () => {
-      change({ flip: !look.clip.flip });
-      flip.setAttribute('aria-pressed', String(look.clip.flip));
-    } }, 'Other side');
+    const on = toggle({ id: 'clip', label: 'Cut away', hint: 'Hides whole tets on one side of a plane; teal faces lie inside. Key C.',
+      change: (value) => this.actions.change({ cut: value ? this.lastCut : 'off' }) });
+    const axis = choice({ id: 'clip-axis', label: 'Cut across', hint: '', choices: kAxes, change: (cut) => this.actions.change({ cut }) });
+    const position = slider({ id: 'clip-position', label: 'Place of the cut', hint: '', min: 0, max: 1, step: 0.005,
+      change: (cut_at) => this.actions.change({ cut_at }), done: () => this.actions.done() });
+    const flip = el('button', { type: 'button', onclick: () => this.actions.change({ cut_side: this.look.clip.flip ? 'high' : 'low' }) }, 'Other side');
+    this.bindings.push((v) => on.show(v.cut !== 'off'), () => axis.show(this.lastCut), (v) => position.show(v.cut_at),
+      (v) => flip.setAttribute('aria-pressed', String(v.cut_side === 'low')));
     const rows = el('div', { class: 'tool-rows', hidden: true }, el('div', { class: 'line' }, strip(axis.element), flip), bare(position.element));
     const tool = el('div', { class: 'card tool', hidden: true },
       el('div', { class: 'flags' }, flag('edges', 'Edges', 'Draw the edges of tets and triangles'), flag('quality', 'Quality', 'Colour each tet by its smallest angle'),
@@ -112,9 +104,18 @@ export class Viewport {
     return [tool, rows];
   }
 
-  setView(view: View): void {
-    this.look.view = view;
-    this.views.show(view);
+  /** Cuts away, or no longer. */
+  toggleCut(): void {
+    this.actions.change({ cut: this.look.clip.on ? 'off' : this.lastCut });
+  }
+
+  show(v: ViewSettings): void {
+    if (v.cut !== 'off') this.lastCut = v.cut;
+    Object.assign(this.look, { view: v.view, edges: v.edges === 'on', quality: v.quality === 'on', ghost: v.ghost === 'on',
+      clip: { on: v.cut !== 'off', axis: 'xyz'.indexOf(this.lastCut), position: v.cut_at, flip: v.cut_side === 'low' } });
+    Object.assign(this.cut, { axis: 'xyz'.indexOf(v.slice), position: v.slice_at });
+    this.views.show(v.view);
+    this.bindings.forEach((binding) => binding(v));
     this.refresh();
   }
 
@@ -128,6 +129,13 @@ export class Viewport {
     (this.flags.get('quality') as HTMLElement).hidden = view !== 'tets' && view !== 'lattice';
     (this.flags.get('ghost') as HTMLElement).hidden = view !== 'tets' && view !== 'lattice';
     this.clipRows.hidden = !this.look.clip.on;
+  }
+
+  /** Whether the soup's edges can be drawn by what draws here. */
+  setEdges(possible: boolean): void {
+    const button = this.flags.get('edges') as HTMLButtonElement;
+    button.disabled = !possible && this.look.view === 'soup';
+    button.title = button.disabled ? 'So many edges need a graphics card' : 'Draw the edges of tets and triangles';
   }
 
   setModel(present: boolean): void {
@@ -152,10 +160,16 @@ export class Viewport {
     this.pauseButton.replaceChildren(...pictured(paused ? 'play' : 'pause', name));
   }
 
-  setStatus(text: string, busy = false): void {
+  /** @param long  It may take so long that somebody wants it to end. */
+  setStatus(text: string, busy = false, long = false): void {
     this.status.textContent = text;
     this.status.hidden = !text;
     this.status.classList.toggle('busy', busy);
+    if (!long) {
+      clearTimeout(this.slow);
+      this.slow = 0;
+      this.cancelButton.hidden = true;
+    } else if (!this.slow) this.slow = setTimeout(() => (this.cancelButton.hidden = false), kSlow);
     // Screen readers say what came of it, not every step on the way.
     this.status.setAttribute('aria-busy', String(busy));
   }

@@ -8,10 +8,18 @@ export interface Sentence {
   tone: Tone;
 }
 
+/** In voxels: no reach is less than nine tenths of one. */
+const kLeastBand = 0.901;
+
 const say = (text: string, tone: Tone = 'plain'): Sentence => ({ text, tone });
 
 export const kPictureLost = 'The graphics card has taken the picture away. It comes back by itself; if it does not, reload the page.';
 export const kCannotDraw = 'This browser does not draw in 3D: WebGL 2 is missing or switched off. Switch on hardware acceleration in its settings, or take another browser. The tool works without: tetsoup mesh model.obj -o model.msh';
+
+/** Of several files that were dropped. */
+export function ofDropped(opened: string, others: number): string {
+  return `${opened} is open; ${count(others, 'other file was', 'other files were')} left out. One model at a time.`;
+}
 
 /** A sample's name at the beginning of a line. */
 export function title(name: string): string {
@@ -20,6 +28,10 @@ export function title(name: string): string {
 
 export function count(n: number, one: string, many = one + 's'): string {
   return `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
+}
+
+function share(part: number): string {
+  return `${(100 * part).toFixed(1)} %`;
 }
 
 /** Lengths in a unit that is not known stay as they are. */
@@ -78,6 +90,7 @@ export function ofVolume(r: Report, s: Wanted): Sentence[] {
   }
   const how = p.automatic ? `k = ${p.k.toFixed(3)}, chosen for you` : `k = ${p.k.toFixed(3)}`;
   said.push(say(`${how}: gaps up to ${length(2 * p.band, s.unit)} count as closed.`));
+  if (!p.automatic && p.band_voxels < kLeastBand) said.push(say('A k as high as yours reaches less far than a voxel, so all from here to 1 are the same. More voxels make a difference.', 'watch'));
   if (p.largest_closure > 0 && r.soup.boundary_edges)
     said.push(say(`Holes were closed up to ${length(p.largest_closure, s.unit)}.`));
   said.push(say(`${count(p.inside_voxels, 'voxel')} of ${length(r.grid.voxel_size, s.unit)} lie inside.`));
@@ -90,6 +103,7 @@ export function ofLattice(r: Report, s: Wanted): Sentence[] {
   const l = r.lattice;
   if (!l.tet_count) return [say('No tet is left. Lower the share that must be inside, or ask for more tets.', 'watch')];
   const said = [say(`${count(l.tet_count, 'tet')} with edges of ${length(l.mean_edge, s.unit)} on average.`)];
+  if (l.overlap_unfitted > 0) said.push(say(`The best place that was found overlaps the volume by ${share(l.overlap)}; as given, it was ${share(l.overlap_unfitted)}.`));
   const off = Math.abs(l.tet_count / s.tets - 1);
   if (off > 0.1) said.push(say(`You asked for ${s.tets.toLocaleString('en')}: this shape allows no closer number.`, 'watch'));
   if (l.thin_tets) said.push(say(`${count(l.thin_tets, 'tet')} kept where the shape is thinner than a cell.`));

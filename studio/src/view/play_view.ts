@@ -34,6 +34,8 @@ export class PlayView extends Group {
   private readonly rope = new Line(new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(6), 3)), new LineBasicMaterial());
   private readonly target = new Vector3();
   private fitted = false;
+  private kept = false;
+  private placed = false;
 
   constructor(private readonly stage: Stage, hand: Hand) {
     super();
@@ -61,7 +63,9 @@ export class PlayView extends Group {
       this.add(layer);
       return layer;
     });
-    this.fitted = false;
+    this.placed = false;
+    this.fitted = this.kept;
+    this.kept = false;
     this.visible = true;
     this.setPalette();
   }
@@ -121,13 +125,20 @@ export class PlayView extends Group {
       body.surface.move(moved.vertices, moved.normals);
       if (this.showTets) body.tets.move(moved.positions);
     });
-    if (!this.fitted) {
-      this.fitted = true;
+    if (!this.placed) {
+      this.placed = true;
       this.setLook(this.showTets);
-      this.fit();
+      if (this.fitted) this.mist();
+      else this.fit();
+      this.fitted = true;
     }
     this.drawRope();
     this.stage.draw();
+  }
+
+  /** Whether the next start leaves the camera where it is. */
+  keepLook(kept: boolean): void {
+    this.kept = kept;
   }
 
   boxOfFirst(): number[] {
@@ -144,6 +155,10 @@ export class PlayView extends Group {
     const side = Math.max(size.x, size.y, 0.6) * 0.12;
     box.expandByVector(new Vector3(side, side, 0));
     this.stage.fit(box, true, new Vector3(0.45, -1, 0.32));
+    this.mist();
+  }
+
+  private mist(): void {
     const distance = this.stage.camera.position.distanceTo(this.stage.controls.target);
     this.stage.scene.fog = new Fog(this.stage.palette.background, kMist[0] * distance, kMist[1] * distance);
   }

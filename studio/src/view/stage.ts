@@ -50,6 +50,8 @@ export class Stage {
   private resting = 0;
   private afterDraw: (() => void)[] = [];
   /** The graphics card has taken the picture away, or gives it back. */
+  /** Somebody has moved the camera. */
+  onLook: (camera: number[]) => void = () => undefined;
   onLost: (lost: boolean) => void = () => undefined;
 
   constructor(private readonly host: HTMLElement, label: string) {
@@ -68,6 +70,7 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('end', () => this.noteLook());
     canvas.addEventListener('keydown', (event) => this.onKey(event));
     // What was on the graphics card is put there again by three; the picture is drawn by us.
     canvas.addEventListener('webglcontextlost', () => this.onLost(true));
@@ -116,6 +119,18 @@ export class Stage {
     this.controls.minDistance = radius / 10;
     this.controls.maxDistance = 8 * radius;
     this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  /** The camera's place and what it looks at, in so many digits that a link stays short. */
+  private noteLook(): void {
+    this.onLook([...this.camera.position, ...this.controls.target].map((x) => Number(x.toPrecision(4))));
+  }
+
+  look([x, y, z, ...target]: number[]): void {
+    this.camera.position.set(x, y, z);
+    this.controls.target.fromArray(target);
     this.controls.update();
     this.draw();
   }
@@ -212,5 +227,6 @@ export class Stage {
     event.preventDefault();
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
+    this.noteLook();
   }
 }
