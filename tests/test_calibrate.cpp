@@ -186,11 +186,33 @@ TEST(Calibrate, regions_keep_the_ratio_of_their_moduli) {
   EXPECT_LT(result.report.after.low, result.report.before.low / 3);
 }
 
+/// A board of three by three on four legs, half a unit wide and two and a half long: one cell across where coarse.
+TetMesh table(int refinement) {
+  const auto kept = [](const TetCorners& p) {
+    const Vec3d centre = (p[0] + p[1] + p[2] + p[3]) * 0.25;
+    const auto outer = [](double at) { return at < 0.5 || at > 2.5; };
+    return centre.z > 2.5 || (outer(centre.x) && outer(centre.y));
+  };
+  return lattice_mesh({}, {6 * refinement, 6 * refinement, 6 * refinement}, 0.5 / refinement, kept);
+}
+
+TEST(Calibrate, what_stands_on_thin_legs_yields_to_loads_as_it_should) {
+  const CalibrateReport report = calibrate(table(1), table(3)).report;
+  EXPECT_GT(report.before.low, 0.3);
+  EXPECT_GT(report.before.load, 0.5);
+  EXPECT_LT(report.after.low, 0.02);
+  EXPECT_LT(report.after.high, 0.05);
+  EXPECT_LT(report.after.load, 0.05);
+  EXPECT_NEAR(report.after.compliance, 1, 0.05);
+}
+
 TEST(Calibrate, what_makes_no_sense_is_refused_and_what_is_stopped_throws) {
   const TetMesh mesh = bar({2, 1, 1}, 1);
   EXPECT_THROW(calibrate(TetMesh{}, mesh), InvalidInput);
   EXPECT_THROW(calibrate(mesh, mesh, {.poisson = 0.5}), InvalidInput);
   EXPECT_THROW(calibrate(mesh, mesh, {.modes = 0}), InvalidInput);
+  EXPECT_THROW(calibrate(mesh, mesh, {.least_stiffness = 0}), InvalidInput);
+  EXPECT_THROW(calibrate(mesh, mesh, {.most_stiffness = 0.5}), InvalidInput);
   const std::vector<double> few(3, 1.0);
   EXPECT_THROW(calibrate_tets({&mesh, few, {}}, {&mesh, {}, {}}), InvalidInput);
   TetMesh turned = mesh;

@@ -16,8 +16,9 @@ struct CalibrateOptions {
   std::size_t reference_tets = 40000;  ///< Of the fine mesh whose motion is taken, 1000..400000.
   double poisson = 0.3;                ///< Poisson ratio of the material, [0, 0.49].
   int modes = 30;                      ///< Elastic modes of every piece that are compared, 6..60.
-  int rounds = 8;                      ///< Corrections of the tets, 1..50.
-  double most_ratio = 20;              ///< Stiffness of a tet over that of its piece's one factor, and back, 1..1000.
+  int rounds = 8;                      ///< Corrections of the tets, of whole parts and then of single ones, 1..50.
+  double least_stiffness = 1e-3;       ///< Of a tet, over that of its material, (0, 1],
+  double most_stiffness = 4;           ///< and the most, [1, 1000].
   bool operator==(const CalibrateOptions&) const = default;
 };
 
@@ -30,10 +31,10 @@ struct ElasticMesh {
 
 /// Mean errors of eigenfrequencies, |f / reference - 1|, and of the work that loads do, over that of the reference.
 struct MotionError {
-  double low = 0;   ///< Of the first ten elastic eigenfrequencies.
-  double high = 0;  ///< Of those from the eleventh on.
-  double compliance =
-      1;  ///< Median over loads that grow linearly and quadratically across the body; below 1: too stiff.
+  double low = 0;         ///< Of the first ten elastic eigenfrequencies.
+  double high = 0;        ///< Of those from the eleventh on.
+  double compliance = 1;  ///< Median over forty loads that vary across the body; below 1: too stiff.
+  double load = 0;        ///< Mean of the absolute logarithm over them.
 };
 
 struct CalibrateReport {

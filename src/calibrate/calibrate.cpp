@@ -41,7 +41,10 @@ void check(const CalibrateOptions& options) {
   require(options.poisson >= 0 && options.poisson <= 0.49, "poisson", options.poisson, "in [0, 0.49]");
   require(options.modes >= 6 && options.modes <= 60, "modes", options.modes, "in 6..60");
   require(options.rounds >= 1 && options.rounds <= 50, "rounds", options.rounds, "in 1..50");
-  require(options.most_ratio >= 1 && options.most_ratio <= 1000, "most_ratio", options.most_ratio, "in [1, 1000]");
+  require(options.least_stiffness > 0 && options.least_stiffness <= 1, "least_stiffness", options.least_stiffness,
+          "in (0, 1]");
+  require(options.most_stiffness >= 1 && options.most_stiffness <= 1000, "most_stiffness", options.most_stiffness,
+          "in [1, 1000]");
 }
 
 /// The body in units of its longest side, around its middle.
@@ -126,10 +129,10 @@ PieceResult calibrate_piece(const Piece& piece, const Piece& reference, const Ca
   enter(0.5, 0.8);
   const MassOrthonormal rigid = rigid_motions(fine);
   const Modes modes = find_modes(fine, factored, rigid, first_guess(fine, count + kGuard), count, 3, watch);
-  MotionTarget target = principal_loads(yield_to(fine, factored, rigid, load_fields(fine)));
+  MotionTarget target = varied_loads(yield_to(fine, factored, rigid, load_fields(fine)));
   target.wanted.eigenvalues = modes.values;
   enter(0.8, 1);
-  result.fit = fit_scales(coarse, piece.stiffness, density, target, options, watch);
+  result.fit = fit_scales(coarse, piece.stiffness, density, result.density, target, options, watch);
   result.wanted = target.wanted;
   return result;
 }
@@ -147,6 +150,7 @@ MotionError error_of(const Behaviour& is, const Behaviour& wanted) {
   std::vector<double> ratios;
   for (std::size_t k = 0; k < is.compliances.size(); ++k) ratios.push_back(is.compliances[k] / wanted.compliances[k]);
   if (ratios.empty()) return error;
+  for (const double ratio : ratios) error.load += std::abs(elementary::log(ratio)) / static_cast<double>(ratios.size());
   std::sort(ratios.begin(), ratios.end());
   error.compliance = (ratios[(ratios.size() - 1) / 2] + ratios[ratios.size() / 2]) / 2;
   return error;
@@ -156,6 +160,7 @@ void add(MotionError& sum, const MotionError& error, double share) {
   sum.low += share * error.low;
   sum.high += share * error.high;
   sum.compliance += share * error.compliance;
+  sum.load += share * error.load;
 }
 
 void note_mass(CalibrateReport& report, const PieceResult& piece) {

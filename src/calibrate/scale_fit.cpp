@@ -13,12 +13,25 @@ namespace tetsoup {
 
 namespace {
 
-constexpr double kLoadWeight = 0.15;  ///< Of a compliance's logarithm, where the first eigenvalue's has 1: measured.
-constexpr int kSmoothings = 4;        ///< Averages over faces: a change reaches as far as the tets around a vertex.
-constexpr double kDamping = 0.03;     ///< Of the mean diagonal: directions that say less are left alone.
-constexpr double kMostStep = 0.7;     ///< Of a tet's logarithm in one round: a factor of two.
+constexpr double kLoadWeight = 0.3;  ///< Of a compliance's logarithm, where the first eigenvalue's has 1: measured.
+constexpr std::size_t kLoads = 40;   ///< As many numbers again as modes and more.
+
+/// How a round changes the tets.
+struct Stage {
+  int smoothings;  ///< Averages over faces; after four a change reaches as far as the tets around a vertex.
+  double damping;  ///< Of the mean diagonal: directions that say less are left alone.
+};
+/// First what is wrong over whole parts; then single tets, such as those that bridge a gap.
+constexpr Stage kStages[] = {{4, 0.03}, {1, 0.01}};
+constexpr double kMostStep = 0.7;         ///< Of a tet's logarithm in one round: a factor of two.
 constexpr std::size_t kFactorModes = 20;  ///< That the one factor is the best for.
 constexpr std::size_t kGuard = 10;        ///< Modes carried along beyond those that are compared.
+
+/// Even in [-.5, .5), by Knuth's multiplier.
+double next_noise(std::uint64_t& state) {
+  state = state * 6364136223846793005U + 1442695040888963407U;
+  return static_cast<double>(state >> 40) / 16777216.0 - 0.5;
+}
 
 /// A tet's average with those it shares faces with.
 class FaceAverage {
@@ -79,10 +92,12 @@ struct Residuals {
 class Fitter {
  public:
   Fitter(ElasticBody& body, const std::vector<double>& stiffness, const std::vector<double>& density,
-         const MotionTarget& target, const CalibrateOptions& options, StageWatch& watch)
+         const std::vector<double>& filled, const MotionTarget& target, const CalibrateOptions& options,
+         StageWatch& watch)
       : body_(body),
         stiffness_(stiffness),
         density_(density),
+        filled_(filled),
         target_(target),
         options_(options),
         watch_(watch),
@@ -101,28 +116,41 @@ class Fitter {
       measure(1);
     }
     fit.one = now_;
-    const double middle = logs_[0];
-    fit.factor = elementary::exp(middle);
+    fit.factor = elementary::exp(logs_[0]);
+    begin_with_what_is_filled();
     Residuals residuals = compare();
     std::vector<double> best = logs_;
     double least = residuals.square();
     fit.after = now_;
-    const double reach = elementary::log(options_.most_ratio);
-    for (int round = 0; round < options_.rounds; ++round) {
-      watch_.step((round + 1.0) / (options_.rounds + 1));
-      step(residuals, middle, reach);
-      measure(1);
-      residuals = compare();
-      if (residuals.square() >= least) continue;
-      least = residuals.square();
-      best = logs_;
-      fit.after = now_;
-    }
+    int done = 0;
+    for (const Stage& stage : kStages)
+      for (int round = 0; round < options_.rounds; ++round) {
+        watch_.step(++done / (2.0 * options_.rounds + 1));
+        step(residuals, stage);
+        measure(1);
+        residuals = compare();
+        if (residuals.square() >= least) continue;
+        least = residuals.square();
+        best = logs_;
+        fit.after = now_;
+      }
     for (const double log : best) fit.scale.push_back(elementary::exp(log));
     return fit;
   }
 
  private:
+  /// What is half filled is half as stiff [Nesme09]: where the mesh bridges a gap, a start from one factor would end
+  /// with a stiff bridge and legs that are too soft.
+  void begin_with_what_is_filled() {
+    for (std::size_t t = 0; t < logs_.size(); ++t) logs_[t] = elementary::log(std::min(1.0, filled_[t]));
+    for (int i = 0; i < 2; ++i) {
+      measure(2);
+      const double change = mean_log_ratio();
+      for (double& log : logs_) log += change;
+    }
+    measure(1);
+  }
+
   /// Modes, from those of the last time on, and compliance.
   void measure(int blocks) {
     std::vector<double> scaled(stiffness_.size());
@@ -170,10 +198,11 @@ class Fitter {
   double scaled(std::size_t t) const { return stiffness_[t] * elementary::exp(logs_[t]); }
 
   /// The least smooth change that makes the differences vanish to first order, damped, and within limits.
-  void step(const Residuals& residuals, double middle, double reach) {
+  void step(const Residuals& residuals, const Stage& stage) {
+    const double low = elementary::log(options_.least_stiffness), high = elementary::log(options_.most_stiffness);
     const std::size_t rows = residuals.values.size(), tets = body_.tet_count();
     SmallMatrix smooth = residuals.slopes;
-    for (std::size_t i = 0; i < rows; ++i) average_.smooth(&smooth.values[i * tets], kSmoothings);
+    for (std::size_t i = 0; i < rows; ++i) average_.smooth(&smooth.values[i * tets], stage.smoothings);
     std::vector<double> products(rows * rows, 0.0);
     double trace = 0;
     for (std::size_t i = 0; i < rows; ++i) {
@@ -190,18 +219,18 @@ class Fitter {
       const double* v = &eigen.vectors[e * rows];
       double along = 0;
       for (std::size_t i = 0; i < rows; ++i) along += v[i] * residuals.values[i];
-      along /= eigen.values[e] + kDamping * trace / static_cast<double>(rows);
+      along /= eigen.values[e] + stage.damping * trace / static_cast<double>(rows);
       for (std::size_t i = 0; i < rows; ++i) weights[i] += along * v[i];
     }
     for (std::size_t t = 0; t < tets; ++t) {
       double change = 0;
       for (std::size_t i = 0; i < rows; ++i) change += weights[i] * smooth.at(i, t);
-      logs_[t] = std::clamp(logs_[t] + std::clamp(change, -kMostStep, kMostStep), middle - reach, middle + reach);
+      logs_[t] = std::clamp(logs_[t] + std::clamp(change, -kMostStep, kMostStep), low, high);
     }
   }
 
   ElasticBody& body_;
-  const std::vector<double>&stiffness_, &density_;
+  const std::vector<double>&stiffness_, &density_, &filled_;
   const MotionTarget& target_;
   const CalibrateOptions& options_;
   StageWatch& watch_;
@@ -234,40 +263,31 @@ NodalFields first_guess(const ElasticBody& body, std::size_t columns) {
     const std::size_t known = std::min(columns, kLoadFields);
     std::copy_n(polynomials.row(i), known, fields.row(i));
     for (std::size_t c = known; c < columns; ++c) {
-      noise = noise * 6364136223846793005U + 1442695040888963407U;  // Knuth's
-      fields.row(i)[c] = static_cast<double>(noise >> 40) / 16777216.0 - 0.5;
+      fields.row(i)[c] = next_noise(noise);
     }
   }
   return fields;
 }
 
-MotionTarget principal_loads(const Yielding& yielding) {
-  const std::size_t n = yielding.work.rows;
-  std::vector<double> scale(n);
-  SmallMatrix work = yielding.work;
-  constexpr double kNoWork = 1e-9;  // Of the largest: a load that only carries the body off, but for rounding.
-  double most = 0;
-  for (std::size_t i = 0; i < n; ++i) most = std::max(most, work.at(i, i));
-  for (std::size_t i = 0; i < n; ++i) scale[i] = work.at(i, i) > kNoWork * most ? 1 / std::sqrt(work.at(i, i)) : 0;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) work.at(i, j) *= scale[i] * scale[j];
-  const SymmetricEigen eigen = symmetric_eigen(work.values, n);
-  constexpr std::size_t kKept = 21;  // Of 24: rotations are among the 27, and the stiffest few say little.
+MotionTarget varied_loads(const Yielding& yielding) {
   MotionTarget target;
-  std::vector<std::size_t> kept;
-  for (std::size_t e = n; e-- > 0 && kept.size() < kKept;)
-    if (eigen.values[e] > 1e-4 * eigen.values.back()) kept.push_back(e);
-  target.loads = SmallMatrix(n, kept.size());
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    target.wanted.compliances.push_back(eigen.values[kept[k]]);
-    for (std::size_t i = 0; i < n; ++i) target.loads.at(i, k) = scale[i] * eigen.vectors[kept[k] * n + i];
+  target.loads = SmallMatrix(yielding.work.rows, kLoads);
+  std::uint64_t noise = 1;
+  for (double& share : target.loads.values) share = next_noise(noise);
+  for (std::size_t k = 0; k < kLoads; ++k) {
+    double work = 0;
+    for (std::size_t i = 0; i < yielding.work.rows; ++i)
+      for (std::size_t j = 0; j < yielding.work.rows; ++j)
+        work += target.loads.at(i, k) * yielding.work.at(i, j) * target.loads.at(j, k);
+    target.wanted.compliances.push_back(work);
   }
   return target;
 }
 
 ScaleFit fit_scales(ElasticBody& body, const std::vector<double>& stiffness, const std::vector<double>& density,
-                    const MotionTarget& target, const CalibrateOptions& options, StageWatch& watch) {
-  return Fitter(body, stiffness, density, target, options, watch).run();
+                    const std::vector<double>& filled, const MotionTarget& target, const CalibrateOptions& options,
+                    StageWatch& watch) {
+  return Fitter(body, stiffness, density, filled, target, options, watch).run();
 }
 
 }  // namespace tetsoup

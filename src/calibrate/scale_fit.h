@@ -19,7 +19,7 @@ struct Behaviour {
 /// What is known of the reference, and the loads it was asked with.
 struct MotionTarget {
   Behaviour wanted;
-  SmallMatrix loads;  ///< (kLoadFields, loads): combinations of load_fields() that do work apart from each other.
+  SmallMatrix loads;  ///< (kLoadFields, loads): combinations of load_fields().
 };
 
 inline constexpr std::size_t kLoadFields = 27;
@@ -28,8 +28,9 @@ NodalFields load_fields(const ElasticBody& body);
 /// To begin a search for modes with: polynomials, and noise for what they all miss.
 NodalFields first_guess(const ElasticBody& body, std::size_t columns);
 
-/// Loads under which a body yields most, each with the work of the others being zero.
-MotionTarget principal_loads(const Yielding& yielding);
+/// Loads that vary across the body in ways that have nothing to do with its modes: each a combination, by noise, of all
+/// of load_fields(). That they are right says that shapes and couplings of the modes are.
+MotionTarget varied_loads(const Yielding& yielding);
 
 struct ScaleFit {
   std::vector<double> scale;  ///< (tets)
@@ -38,7 +39,9 @@ struct ScaleFit {
 };
 
 /// @param stiffness  (tets) of the coarse piece, over that of the material; density likewise, as calibrated.
+/// @param filled     (tets) What the reference fills of each.
 ScaleFit fit_scales(ElasticBody& body, const std::vector<double>& stiffness, const std::vector<double>& density,
-                    const MotionTarget& target, const CalibrateOptions& options, StageWatch& watch);
+                    const std::vector<double>& filled, const MotionTarget& target, const CalibrateOptions& options,
+                    StageWatch& watch);
 
 }  // namespace tetsoup

@@ -289,7 +289,10 @@ std::string to_json(const Readiness& readiness, const Material& material) {
 std::string to_json(const Calibration& calibration) {
   const CalibrateReport& report = calibration.report;
   const auto error = [](const MotionError& e) {
-    return Json{{"frequencies_1_to_10", e.low}, {"frequencies_from_11", e.high}, {"compliance", e.compliance}};
+    return Json{{"frequencies_1_to_10", e.low},
+                {"frequencies_from_11", e.high},
+                {"compliance", e.compliance},
+                {"compliance_log", e.load}};
   };
   return text_of({{"factor", calibration.factor},
                   {"reference_tets", report.reference_tets},
