@@ -109,18 +109,19 @@ struct LatticeReport {
   double mean_edge = 0;        ///< Of the tets before smoothing.
   std::size_t used_cells = 0;  ///< Cells with at least one kept tet.
   std::size_t tet_count = 0;
-  std::size_t sampled_tets = 0;    ///< Tets that held no voxel centre and were judged by sampling.
-  double kept_volume = 0;          ///< Of the kept tets.
-  double pseudo_volume = 0;        ///< Of the inside voxels.
-  bool kept_by_soup = false;       ///< Density left nothing: the tets the soup passes through were kept instead.
-  int fills = 0;                   ///< Lattices filled to hit the wanted count.
-  Vec3d translate_cells, rotate;   ///< The frame that was taken.
-  double overlap = 0;              ///< IoU of the kept tets with the pseudo volume,
-  double overlap_unfitted = 0;     ///< and with the frame as given, where one was searched for.
-  std::size_t evened_tets = 0;     ///< Dropped where they stuck out, or added to fill a notch, for a smoother boundary.
-  std::size_t thin_tets = 0;       ///< Kept because a piece of the soup would have lost its cover.
-  std::size_t enclosing_tets = 0;  ///< Kept to enclose the soup's vertices.
-  std::size_t doubled_tets = 0;    ///< Copies made to keep apart what is apart,
+  std::size_t sampled_tets = 0;   ///< Tets that held no voxel centre and were judged by sampling.
+  double kept_volume = 0;         ///< Of the kept tets.
+  double pseudo_volume = 0;       ///< Of the inside voxels.
+  bool kept_by_soup = false;      ///< Density left nothing: the tets the soup passes through were kept instead.
+  int fills = 0;                  ///< Lattices filled to hit the wanted count.
+  Vec3d translate_cells, rotate;  ///< The frame that was taken.
+  Vec3d stretch{1, 1, 1};         ///< Edges of its cells along its axes, in cell sizes: not 1 where flat sides are met.
+  double overlap = 0;             ///< IoU of the kept tets with the pseudo volume,
+  double overlap_unfitted = 0;    ///< and with the frame as given, where one was searched for.
+  std::size_t evened_tets = 0;    ///< Dropped where they stuck out, or added to fill a notch, for a smoother boundary.
+  std::size_t thin_tets = 0;      ///< Kept because a piece of the soup would have lost its cover.
+  std::size_t enclosing_tets = 0;   ///< Kept to enclose the soup's vertices.
+  std::size_t doubled_tets = 0;     ///< Copies made to keep apart what is apart,
   std::size_t parted_vertices = 0;  ///< and vertices doubled between tets that stay what they were.
   double excess_volume = 0;         ///< Of the mesh, outside the pseudo volume,
   double lacking_volume = 0;        ///< and of the pseudo volume, outside the mesh.
@@ -141,7 +142,8 @@ struct LatticeMesh {
 /// instead. First every tet is kept that holds something of the volume, or of the soup where it has none beside it; of
 /// a lone sheet or a needle those that the soup passes through. Parts are kept apart, then the tets below rho_min go as
 /// far as that tears, closes and bares nothing. Then come stairs and the clean-up of the topology, as the options say,
-/// and the edge is searched for, in at most sixteen fills, with which all that leaves the wanted count.
+/// and the edge is searched for, in at most sixteen fills, with which all that leaves the wanted count. Before that
+/// cells that end at the flat sides of the soup are tried, at most four times, if only a count is given.
 ///
 /// @return  Positive tets, faces matching, boundary a closed manifold unless Touching::Leave, never empty if the soup
 /// is

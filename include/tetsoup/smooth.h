@@ -38,8 +38,8 @@ enum class Stay {
 /// What smoothing may know besides the mesh.
 struct SmoothTarget {
   const BitGrid* inside = nullptr;      ///< The pseudo volume whose surface the boundary is drawn to.
-  std::optional<double> volume;         ///< Of what the voxels show, where it is known; absent: they are counted.
-  const TriangleSoup* soup = nullptr;   ///< What the mesh reaches of it at the start is held on to.
+  std::optional<double> volume = {};    ///< Of what the voxels show, where it is known; absent: they are counted.
+  const TriangleSoup* soup = nullptr;   ///< Its planes, and what the mesh reaches of it at the start.
   std::span<const Vec3> enclosed = {};  ///< Those of them that lie in the mesh at the start stay in it, the others out.
   Stay stay = Stay::Free;
 };
@@ -84,7 +84,8 @@ SmoothResult smooth_tets(const TetMesh& mesh, const SmoothOptions& options = {},
 /// of three things weighed against each other: the distance of the triangles around it from there, the bending of the
 /// boundary, and the shape of its tets, 1 / q^3 with the mean ratio q. All moves keep the limits as above. The volume
 /// of the whole comes out as the target's. Both faces of a layer one tet thick are drawn to the two of the wall in it.
-/// With a soup, points of it that the mesh reached and draws back from pull as well: without, a layer of tets around a
+/// With a soup, its planes go before the voxels where they are wider than a tet, so that edges and corners between them
+/// are met; and points of it that the mesh reached and draws back from pull as well: without, a layer of tets around a
 /// sheet shrinks at its rim. Cost: O(passes x tets), whatever the size of the grid.
 SmoothResult smooth_tets(const TetMesh& mesh, const SmoothTarget& target, const SmoothOptions& options = {},
                          const Progress& progress = {});

@@ -81,6 +81,8 @@ void bind_lattice_report(nb::module_& m) {
       .field("fills", &R::fills, "Lattices filled to hit the wanted count.")
       .field("translate_cells", &R::translate_cells, "The shift that was taken, fractions of a cell.")
       .field("rotate", &R::rotate, "The rotation that was taken, radians about x, then y, then z.")
+      .field("stretch", &R::stretch,
+             "Edges of the cells along their axes, in cell sizes: not 1 where flat sides are met.")
       .field("overlap", &R::overlap, "IoU of the kept tets with the pseudo volume.")
       .field("overlap_unfitted", &R::overlap_unfitted, "The same with the frame as given.")
       .field("thin_tets", &R::thin_tets, "Kept because a piece of the soup would have lost its cover.")

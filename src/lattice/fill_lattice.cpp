@@ -3,11 +3,13 @@
 #include <cmath>
 #include <string>
 
+#include "base/elementary.h"
 #include "base/require.h"
 #include "base/tet_geometry.h"
 #include "lattice/budget.h"
 #include "lattice/filler.h"
 #include "lattice/fit.h"
+#include "lattice/flat_sides.h"
 
 namespace tetsoup {
 namespace {
@@ -94,6 +96,42 @@ Fill fill_to_budget(Filler& filler, const Budget& budget, LatticePose pose, cons
                           volume.report.volume);
 }
 
+/// A soup with flat sides, in cells that end at them: then these sides are flat from the start, and no count jumps by
+/// a layer. None where there are no such sides, or where no such lattice tried meets the budget.
+std::optional<Fill> fill_between_sides(Filler& filler, const Budget& budget, const CleanSoup& soup, double volume,
+                                       StageWatch& watch) {
+  constexpr int kMostTries = 4;
+  constexpr double kLeastOverlap = 0.4;  // Where walls are far thinner than tets it matters more how they are covered.
+  constexpr double kOfMiss = 0.005;      // The whole tolerance, beside planes that lie within cells.
+  const double cell = expected_cell(filler.table(), budget, volume);
+  const std::optional<FlatSides> sides = find_flat_sides(soup.soup, filler.table().mean_edge * cell, watch);
+  if (!sides) return {};
+  const Box3 box = grid_box(filler.grid());
+  const std::vector<AlignedPlace> places = aligned_places(*sides, cell, (box.lo + box.hi) * 0.5);
+  std::vector<bool> tried(places.size());
+  double cells_wanted = volume / elementary::cube(cell);  // corrected by every try
+  for (int i = 0; i < kMostTries; ++i) {
+    const AlignedPlace* best = nullptr;
+    double least = 0;
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      const double miss = std::abs(volume / places[p].volume / cells_wanted - 1) / budget.tolerance();
+      const double unfit = places[p].unfit + kOfMiss * miss * miss;
+      if (tried[p] || miss > 1 || (best != nullptr && unfit >= least)) continue;
+      best = &places[p], least = unfit;
+    }
+    if (best == nullptr || best->place.cell_size < filler.smallest_cell()) return {};
+    tried[static_cast<std::size_t>(best - places.data())] = true;
+    Fill fill = filler.fill(pose_of(best->place, filler.grid()), Filler::Cells::WholeWhereFlat);
+    if (fill.by_soup) return {};
+    if (budget.miss(fill) <= budget.tolerance()) {
+      if (filler.shares(kept_mesh(fill.candidates)).overlap() < kLeastOverlap) return {};
+      return fill;
+    }
+    cells_wanted = volume / best->volume * static_cast<double>(budget.wanted) / static_cast<double>(budget.count(fill));
+  }
+  return {};
+}
+
 /// The best of what the search for a fit finds, as far as it meets the budget; `first` if that is no better.
 Fill fitted(Fill first, Filler& filler, const std::optional<Budget>& budget, const LatticeOptions& options,
             const PseudoVolume& volume, StageWatch& watch) {
@@ -153,6 +191,7 @@ LatticeMesh finished(const Fill& fill, const Filler& filler, const PseudoVolume&
   report.fills = fills;
   report.translate_cells = fill.pose.translate_cells;
   report.rotate = fill.pose.rotate;
+  report.stretch = fill.pose.stretch;
   const Shares shares = filler.shares(result.mesh);
   report.overlap = shares.overlap();
   report.excess_volume = shares.only_mesh;
@@ -171,7 +210,14 @@ LatticeMesh fill_lattice(const PseudoVolume& volume, const CleanSoup& soup, cons
   LatticePose pose{0, options.translate_cells, options.rotate};
   const std::optional<Budget> budget = budget_of(options);
   if (!budget) pose.cell_size = given_cell_size(options, filler, volume.inside.frame);
-  Fill fill = budget ? fill_to_budget(filler, *budget, pose, volume) : filler.fill(pose);
+  std::optional<Fill> aligned;
+  const bool is_free = options.fit == Fit::Off && pose.translate_cells == Vec3d{} && pose.rotate == Vec3d{};
+  if (budget && is_free && filler.has_volume() && options.cover == Cover::Density &&
+      filler.table().reach == kStepsPerCell)  // cells with faces
+    aligned = fill_between_sides(filler, *budget, soup, volume.report.volume, watch);
+  Fill fill = aligned  ? std::move(*aligned)
+              : budget ? fill_to_budget(filler, *budget, pose, volume)
+                       : filler.fill(pose);
   const int fills = filler.fills();
   if (options.fit == Fit::Off || fill.by_soup) return finished(fill, filler, volume, fills);
   const double unfitted = filler.shares(kept_mesh(fill.candidates)).overlap();

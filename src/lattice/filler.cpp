@@ -15,6 +15,7 @@
 #include "lattice/even_out.h"
 #include "lattice/gather_candidates.h"
 #include "lattice/separate.h"
+#include "lattice/whole_cells.h"
 
 namespace tetsoup {
 namespace {
@@ -109,12 +110,15 @@ BitGrid Filler::find_body() const {
   return covers_soup ? body_voxels(volume_.inside, soup_, watch_) : volume_.inside;
 }
 
-Fill Filler::fill(const LatticePose& pose) {
+Fill Filler::fill(const LatticePose& pose, Cells cells) {
   check_cell(pose.cell_size);
   const double overhang = static_cast<double>(table_.reach) / kStepsPerCell - 1;
   Fill fill{pose, make_lattice_frame(grid_, pose, overhang), {}, false, 0, 0, {}};
   ++fills_;
   FilledCells filled = find_densities(blocks_, fill.frame, table_, options_.rho_min, watch_);
+  if (cells == Cells::WholeWhereFlat) {
+    level_flat_cells(body_, fill.frame, table_, options_.rho_min, filled, watch_);
+  }
   fill.by_soup = !has_volume_ || (filled.kept_tets == 0 && options_.thin == Thin::Drop);
   if (fill.by_soup) keep_crossed_tets(soup_, fill.frame, table_, filled, watch_);
   fill.dense_tets = filled.kept_tets;

@@ -35,8 +35,9 @@ class Filler {
   /// All must outlive this.
   Filler(const PseudoVolume& volume, const CleanSoup& soup, const LatticeOptions& options, StageWatch& watch);
 
+  enum class Cells { Cut, WholeWhereFlat };
   /// The cover of the body, or what the soup passes through if that is a sheet; carved, then cover and clean-up.
-  Fill fill(const LatticePose& pose);
+  Fill fill(const LatticePose& pose, Cells cells = Cells::Cut);
 
   Shares shares(const TetMesh& mesh) const;
   int fills() const { return fills_; }

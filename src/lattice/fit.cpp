@@ -115,7 +115,7 @@ std::vector<Place> first_places(const Place& start, const FitPoints& points) {
   for (const Vec3d& rotate : rotations)
     for (int i = 0; i < kShifts; ++i) {
       const auto n = static_cast<int>(places.size());
-      places.push_back({start.cell_size, rotate, start.centre_cell + even_point(n)});
+      places.push_back({start.cell_size, rotate, start.centre_cell + even_point(n), start.stretch});
     }
   return places;
 }

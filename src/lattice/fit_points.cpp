@@ -89,7 +89,7 @@ Matrix eigenvectors(Matrix a) {
 }  // namespace
 
 LatticePose pose_of(const Place& place, const GridFrame& grid) {
-  LatticePose pose{place.cell_size, {}, place.rotate};
+  LatticePose pose{place.cell_size, {}, place.rotate, place.stretch};
   const Vec3d shift = make_lattice_frame(grid, pose).centre_cell - place.centre_cell;
   // Lattices repeat after two cells.
   const auto least = [](double s) { return s - 2 * std::round(s / 2); };
@@ -98,7 +98,7 @@ LatticePose pose_of(const Place& place, const GridFrame& grid) {
 }
 
 Place place_of(const LatticePose& pose, const GridFrame& grid) {
-  return {pose.cell_size, pose.rotate, make_lattice_frame(grid, pose).centre_cell};
+  return {pose.cell_size, pose.rotate, make_lattice_frame(grid, pose).centre_cell, pose.stretch};
 }
 
 FitPoints::FitPoints(const BitGrid& inside, std::size_t wanted, const LatticeTable& table, double rho_min)
@@ -144,7 +144,7 @@ Vec3d FitPoints::principal_rotation() const {
 }
 
 Guess FitPoints::guess(const Place& place) const {
-  LatticePose pose{place.cell_size, {}, place.rotate};
+  LatticePose pose{place.cell_size, {}, place.rotate, place.stretch};
   LatticeFrame frame = make_lattice_frame(grid_, pose, 1);
   const Vec3d shift = place.centre_cell - frame.centre_cell;
   const std::array<int, 3> whole{floor_to_int(shift.x), floor_to_int(shift.y), floor_to_int(shift.z)};
@@ -162,8 +162,10 @@ std::vector<std::uint16_t> FitPoints::count_points(const LatticeFrame& frame) co
   const std::array<std::ptrdiff_t, 3> strides{tets, tets * cells(0), tets * cells(0) * cells(1)};
   const bool is_five = table_.point_count == 1;
   const Codes codes = is_five ? five_codes() : bcc_codes(strides);
-  const auto row = [&](const Vec3d& axis) { return to_float(axis * (1 / frame.cell_size)); };
-  const Vec3 ax = row(frame.axes[0]), ay = row(frame.axes[1]), az = row(frame.axes[2]);
+  const auto row = [&](std::size_t axis, double stretch) {
+    return to_float(frame.axes[axis] * (1 / (frame.cell_size * stretch)));
+  };
+  const Vec3 ax = row(0, frame.stretch.x), ay = row(1, frame.stretch.y), az = row(2, frame.stretch.z);
   // From the first cell on coordinates are positive, and their whole parts what the conversion cuts them to.
   const Vec3 c = to_float(frame.centre_cell - Vec3d{1.0 * frame.begin[0], 1.0 * frame.begin[1], 1.0 * frame.begin[2]});
   const int first_odd = is_odd(frame.begin);
@@ -186,7 +188,8 @@ Guess FitPoints::judge(const LatticeFrame& frame, const std::vector<std::uint16_
   std::array<double, kMostTetsPerCell> full{};  // points in a tet that is inside
   std::array<int, kMostTetsPerCell> least{};    // and in one that is kept
   for (std::size_t t = 0; t < tets; ++t) {
-    full[t] = table_.volume[t] * elementary::cube(frame.cell_size) / volume_;
+    full[t] = table_.volume[t] * elementary::cube(frame.cell_size) * frame.stretch.x * frame.stretch.y *
+              frame.stretch.z / volume_;
     least[t] = std::max(1, ceil_to_int(std::min(rho_min_ * full[t], 1e6)));
   }
   Guess guess;

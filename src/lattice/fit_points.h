@@ -14,6 +14,7 @@ struct Place {
   double cell_size = 1;
   Vec3d rotate;
   Vec3d centre_cell;  ///< Cell coordinates of the centre of the soup's box.
+  Vec3d stretch{1, 1, 1};
 };
 
 /// The pose of that place.

@@ -42,19 +42,22 @@ Box3 grid_box(const GridFrame& grid) {
 
 LatticeFrame make_lattice_frame(const GridFrame& grid, const LatticePose& pose, double overhang) {
   LatticeFrame frame;
-  const double cell_size = frame.cell_size = pose.cell_size;
+  frame.cell_size = pose.cell_size;
+  frame.stretch = pose.stretch;
   frame.axes = rotated_axes(pose.rotate);
   const Box3 box = grid_box(grid);
   frame.centre = (box.lo + box.hi) * 0.5;
   const Vec3d half = (box.hi - box.lo) * 0.5;
   const Vec3d padded = half + Vec3d{1, 1, 1} * (grid.pad * grid.voxel_size);
   const std::array<double, 3> shift{pose.translate_cells.x, pose.translate_cells.y, pose.translate_cells.z};
+  const std::array<double, 3> edges{pose.cell_size * pose.stretch.x, pose.cell_size * pose.stretch.y,
+                                    pose.cell_size * pose.stretch.z};
   std::array<double, 3> middle{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const double cells = 2 * half_extent(half, frame.axes[i]) / cell_size;
+    const double cells = 2 * half_extent(half, frame.axes[i]) / edges[i];
     frame.count[i] = std::max(1, static_cast<int>(std::ceil(cells * (1 - 1e-9))));
     middle[i] = 0.5 * frame.count[i] - shift[i];
-    const double reach = half_extent(padded, frame.axes[i]) / cell_size;
+    const double reach = half_extent(padded, frame.axes[i]) / edges[i];
     frame.begin[i] = static_cast<int>(std::floor(middle[i] - reach - overhang));
     frame.end[i] = static_cast<int>(std::ceil(middle[i] + reach));
   }

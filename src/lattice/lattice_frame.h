@@ -18,8 +18,9 @@ inline bool is_odd(const Cell& cell) {
 /// How a lattice lies over the grid.
 struct LatticePose {
   double cell_size = 1;
-  Vec3d translate_cells;  ///< Of a cell.
-  Vec3d rotate;           ///< Radians about x, then y, then z, around the centre of the soup's box.
+  Vec3d translate_cells;   ///< Of a cell.
+  Vec3d rotate;            ///< Radians about x, then y, then z, around the centre of the soup's box.
+  Vec3d stretch{1, 1, 1};  ///< Edges of a cell along the lattice's axes, in cell sizes.
   bool operator==(const LatticePose&) const = default;
 };
 
@@ -27,6 +28,7 @@ struct LatticePose {
 /// count) lie centred over the soup's box.
 struct LatticeFrame {
   double cell_size = 1;
+  Vec3d stretch{1, 1, 1};     ///< Edges of a cell along the axes, in cell sizes.
   std::array<Vec3d, 3> axes;  ///< Unit vectors along the lattice's axes.
   Vec3d centre;               ///< Of the soup's box.
   Vec3d centre_cell;          ///< Cell coordinates of the centre.
@@ -35,11 +37,11 @@ struct LatticeFrame {
 
   Vec3d to_cell(const Vec3d& point) const {
     const Vec3d p = (point - centre) * (1 / cell_size);
-    return Vec3d{dot(p, axes[0]), dot(p, axes[1]), dot(p, axes[2])} + centre_cell;
+    return Vec3d{dot(p, axes[0]) / stretch.x, dot(p, axes[1]) / stretch.y, dot(p, axes[2]) / stretch.z} + centre_cell;
   }
   Vec3d to_point(const Vec3d& cell) const {
     const Vec3d c = (cell - centre_cell) * cell_size;
-    return centre + axes[0] * c.x + axes[1] * c.y + axes[2] * c.z;
+    return centre + axes[0] * (c.x * stretch.x) + axes[1] * (c.y * stretch.y) + axes[2] * (c.z * stretch.z);
   }
 };
 

@@ -186,6 +186,7 @@ std::string to_json(const LatticeReport& report) {
                   {"fills", report.fills},
                   {"translate", vector_json(report.translate_cells)},
                   {"rotate_deg", degrees_json(report.rotate)},
+                  {"stretch", vector_json(report.stretch)},
                   {"overlap", report.overlap},
                   {"overlap_unfitted", report.overlap_unfitted},
                   {"evened_tets", report.evened_tets},

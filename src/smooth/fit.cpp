@@ -6,6 +6,7 @@
 #include "base/bits.h"
 #include "smooth/aims.h"
 #include "smooth/draw.h"
+#include "smooth/planes.h"
 #include "smooth/relax.h"
 #include "smooth/volume.h"
 
@@ -17,6 +18,7 @@ constexpr double kReach = 0.5;  // Mean edges: half a tet is what density leaves
 // Of the inside voxels' volume: a mesh that differs by more does not follow them (a sheet whose tets were kept for the
 // soup in them, thin parts of a plate), and its volume is left to the fit, unless that takes too much of it.
 constexpr double kNear = 0.1, kLacking = 0.2;
+constexpr double kNearPlane = 1.5;       // Voxels, from where they change to the plane of the soup that made them.
 constexpr double kShareOfPasses = 0.95;  // Of the stage's time; the rest goes into the volume.
 
 double volume_of(const GuardedMesh& mesh) {
@@ -56,11 +58,19 @@ double fit_to_surface(const Connectivity& links, const SmoothTarget& target, int
   };
   double level = (wanted - counted) / boundary_area(links, mesh);
   std::optional<SoupPoints> points;
-  if (target.soup != nullptr) points.emplace(*target.soup, links, mesh.mesh(), edge, watch);
+  std::optional<PlaneFit> planes;
+  if (target.soup != nullptr) {
+    points.emplace(*target.soup, links, mesh.mesh(), edge, watch);
+    planes.emplace(*target.soup, links, edge, watch);
+  }
   for (int pass = 0; pass < passes; ++pass) {
     watch.enter_part(kShareOfPasses * pass / passes, kShareOfPasses * (pass + 1) / passes);
     const std::vector<Vec3d> normals = unit_normals(links, mesh);
-    BoundaryAims aims{aim_at_surface(links, mesh, normals, inside, kReach * edge, level, watch), {}};
+    BoundaryAims aims{aim_at_surface(links, mesh, normals, inside, kReach * edge, level, watch), {}, {}};
+    // The lattice's triangles face anywhere; after one pass they tell which plane is theirs.
+    if (planes && pass > 0) {
+      aims.creased = planes->lay(mesh, kNearPlane * inside.frame.voxel_size, level, aims.triangles, watch);
+    }
     if (points) aims.pulls = points->pulls(links, mesh.mesh(), normals, watch);
     mesh.look_around(watch);
     relax(links, aims, edge, pass % 2 == 0 ? Sweep::Forwards : Sweep::Backwards, mesh, watch);

@@ -47,8 +47,10 @@ class Relaxation {
       add_distance(aim, own, at, b, c, area, model);
       if (aims_.pulls.size() > 0) add_pulls(triangle, own, at, b, c, model);
     }
-    add_bend(v, normal, model);
+    if (!is_creased(v)) add_bend(v, normal, model);
   }
+
+  bool is_creased(std::uint32_t v) const { return !aims_.creased.empty() && aims_.creased[v] != 0; }
 
   void add_distance(const TriangleAim& aim, std::size_t own, const Vec3d& at, const Vec3d& b, const Vec3d& c,
                     double area, LocalModel& model) const {
@@ -95,7 +97,12 @@ class Relaxation {
     const auto neighbours = links_.boundary_neighbours[v];
     const double share = 1 / static_cast<double>(neighbours.size());
     Vec3d mean;
-    for (const std::uint32_t w : neighbours) mean += umbrella(w) * share;
+    double count = 0;
+    for (const std::uint32_t w : neighbours) {
+      if (!is_creased(w)) mean += umbrella(w), ++count;
+    }
+    if (count == 0) return;
+    mean = mean * (1 / count);
     const Vec3d normal = area_normal * (1 / size);
     // A move of v changes its own umbrella by as much, and each neighbour's by about its share.
     const double reply = 1 + share;

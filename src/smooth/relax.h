@@ -16,7 +16,8 @@ enum class Sweep { Forwards, Backwards };
 /// Where the boundary should come to lie.
 struct BoundaryAims {
   std::vector<TriangleAim> triangles;
-  Groups<Pull> pulls;  ///< By triangle; empty where no soup is given.
+  Groups<Pull> pulls;                 ///< By triangle; empty where no soup is given.
+  std::vector<std::uint8_t> creased;  ///< By vertex: it lies between planes and may bend; empty where there are none.
 };
 
 /// One Newton step for every vertex, one after the other in the order of their numbers.
