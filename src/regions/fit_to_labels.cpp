@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kPasses = 6;
 constexpr std::int64_t kGrain = 16;   // faces
-constexpr double kReach = 0.4;        // Mean edges: more than half a tet is what its label leaves or lacks.
-constexpr int kStepsInReach = 6;      // A layer thinner than a tenth of an edge may be missed.
+constexpr double kReach = 0.6;        // Mean edges: a border may lie halfway between two layers of cells.
+constexpr int kStepsInReach = 8;      // A layer thinner than a tenth of an edge may be missed.
 constexpr int kHalvings = 6;          // Of a step: to .002 edges.
 constexpr double kLeastCosine = 0.3;  // Between the way searched and a surface's normal, below which it is not that.
 
@@ -35,7 +35,9 @@ constexpr std::array<std::array<double, 3>, 3> kCornerWeights{{{1, 0, 0}, {0, 1,
 // A border's area, times a mean edge, against the volume that is labelled wrongly: spikes of single tets are given up,
 // since their corners cannot all come to lie on the border.
 constexpr double kEvening = 0.03;
-constexpr int kEvenings = 4;  // Rounds; nearly all changes come in the first.
+constexpr int kEvenings = 4;     // Rounds; nearly all changes come in the first.
+constexpr int kBalancings = 8;   // Of the labels' volumes; the best counts.
+constexpr double kMostLack = 4;  // What a label's shares count for more or less is changed by its root at most.
 
 /// A face between tets of two labels, seen from the lower one.
 struct BorderFace {
@@ -67,28 +69,78 @@ Groups<Neighbour> neighbours_of(const TetMesh& mesh, const std::vector<TetFace>&
           }};
 }
 
-/// The label of which each tet has most, where that does not make the border longer than it is worth.
-std::vector<std::uint32_t> even_labels(const TetMesh& mesh, const std::vector<TetFace>& faces, const TetLabels& shares,
-                                       double edge) {
-  std::vector<std::uint32_t> labels = largest_of(shares);
-  const Groups<Neighbour> neighbours = neighbours_of(mesh, faces);
-  for (int round = 0; round < kEvenings; ++round) {
-    for (std::size_t t = 0; t < labels.size(); ++t) {
-      if (shares[t].size() < 2) continue;
-      const double volume = signed_volume(corners_of(mesh, mesh.tets[t]));
-      double least = std::numeric_limits<double>::infinity();
-      std::uint32_t choice = labels[t];
-      for (const LabelShare& s : shares[t]) {
-        double cost = -volume * static_cast<double>(s.share);
-        for (const Neighbour& n : neighbours[t])
-          if (labels[n.tet] != s.label) cost += kEvening * edge * n.area;
-        if (cost < least) least = cost, choice = s.label;
-      }
-      labels[t] = choice;
-    }
+/// Which label each tet is to have.
+class Labelling {
+ public:
+  Labelling(const TetMesh& mesh, const std::vector<TetFace>& faces, const TetLabels& shares, double edge)
+      : shares_(shares), edge_(edge), neighbours_(neighbours_of(mesh, faces)) {
+    for (const Tet& tet : mesh.tets) volumes_.push_back(signed_volume(corners_of(mesh, tet)));
+    for (std::size_t t = 0; t < shares.size(); ++t)
+      for (const LabelShare& s : shares[t]) weights_[s.label] = 1;
   }
-  return labels;
-}
+
+  /// That of which it has most, where that does not make the border longer than it is worth. A part narrower than some
+  /// tets fills few of them by half: so what a label's tets lack of its volume makes its shares count for more.
+  std::vector<std::uint32_t> find() {
+    const std::map<std::uint32_t, double> wanted = volumes(nullptr);
+    std::vector<std::uint32_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < kBalancings; ++round) {
+      const std::vector<std::uint32_t> labels = evened();
+      std::map<std::uint32_t, double> got = volumes(&labels);
+      double miss = 0;
+      for (const auto& [label, volume] : wanted) {
+        miss += std::abs(got[label] - volume);
+        const double lack = volume / std::max(got[label], volume / kMostLack);
+        weights_[label] *= std::sqrt(std::max(lack, 1 / kMostLack));
+      }
+      if (miss < least) least = miss, best = labels;
+    }
+    return best;
+  }
+
+ private:
+  double cost(std::size_t t, const LabelShare& s, const std::vector<std::uint32_t>& labels) const {
+    double sum = -volumes_[t] * static_cast<double>(s.share) * weights_.at(s.label);
+    for (const Neighbour& n : neighbours_[t])
+      if (labels[n.tet] != s.label) sum += kEvening * edge_ * n.area;
+    return sum;
+  }
+
+  std::vector<std::uint32_t> evened() const {
+    std::vector<std::uint32_t> labels = largest_of(shares_);
+    for (int round = 0; round < kEvenings; ++round) {
+      for (std::size_t t = 0; t < labels.size(); ++t) {
+        if (shares_[t].size() < 2) continue;
+        double least = std::numeric_limits<double>::infinity();
+        std::uint32_t choice = labels[t];
+        for (const LabelShare& s : shares_[t])
+          if (const double c = cost(t, s, labels); c < least) least = c, choice = s.label;
+        labels[t] = choice;
+      }
+    }
+    return labels;
+  }
+
+  /// Of every label: of the tets that have it, or of its shares.
+  std::map<std::uint32_t, double> volumes(const std::vector<std::uint32_t>* labels) const {
+    std::map<std::uint32_t, double> sum;
+    for (std::size_t t = 0; t < volumes_.size(); ++t) {
+      if (labels != nullptr) {
+        sum[(*labels)[t]] += volumes_[t];
+        continue;
+      }
+      for (const LabelShare& s : shares_[t]) sum[s.label] += volumes_[t] * static_cast<double>(s.share);
+    }
+    return sum;
+  }
+
+  const TetLabels& shares_;
+  double edge_;
+  Groups<Neighbour> neighbours_;
+  std::vector<double> volumes_;
+  std::map<std::uint32_t, double> weights_;
+};
 
 std::vector<BorderFace> border_faces(const TetMesh& mesh, const std::vector<TetFace>& faces,
                                      const std::vector<std::uint32_t>& labels) {
@@ -222,7 +274,7 @@ TetMesh fit_to_labels(const TetMesh& mesh, const TriangleSoup& soup, std::span<c
   for (int pass = 0; pass < kPasses; ++pass) {
     watch.enter_part(static_cast<double>(pass) / kPasses, static_cast<double>(pass + 1) / kPasses);
     const TetLabels shares = share_tets(fitted, places, shift, watch);
-    const std::vector<BorderFace> border = border_faces(fitted, faces, even_labels(fitted, faces, shares, edge));
+    const std::vector<BorderFace> border = border_faces(fitted, faces, Labelling(fitted, faces, shares, edge).find());
     if (border.empty()) return fitted;
     std::vector<FaceAim> aims = BorderAims(fitted, places, shift, edge).find(border, watch);
     aims.insert(aims.end(), held.begin(), held.end());
