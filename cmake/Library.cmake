@@ -15,7 +15,7 @@ function(tetsoup_set_warnings target)
 endfunction()
 
 # tetsoup_parse_once(target header...): with TETSOUP_PCH, these and the common standard headers are parsed once. A file
-# that leans on them instead of including what it uses is found by the builds without it, Python's among them.
+# that leans on them instead of including what it uses is found by the builds without it, the consumers' among them.
 function(tetsoup_parse_once target)
   if(TETSOUP_PCH)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <atomic> <chrono> <cmath> <functional> <map> <memory>
