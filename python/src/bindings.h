@@ -9,6 +9,7 @@ void bind_meshes(nanobind::module_& module);
 void bind_stages(nanobind::module_& module);
 void bind_pipeline(nanobind::module_& module);
 void bind_surfaces(nanobind::module_& module);
+void bind_calibration(nanobind::module_& module);
 void bind_models(nanobind::module_& module);
 void bind_simulation(nanobind::module_& module);
 void bind_files(nanobind::module_& module);

@@ -7,6 +7,7 @@
 #include "materials.h"
 #include "progress.h"
 #include "records.h"
+#include "tetsoup/calibrate.h"
 #include "tetsoup/engines.h"
 #include "tetsoup/error.h"
 #include "tetsoup/io.h"
@@ -49,6 +50,12 @@ void bind_model(nb::module_& m) {
       .def("add_pin",
            [](TetModel& self, const std::string& name, IndicesIn vertices) {
              self.pins.push_back({name, copy_rows<std::uint32_t>(vertices)});
+           })
+      .def("set_calibration",
+           [](TetModel& self, const Calibration& calibration) {
+             self.stiffness_scale = calibration.stiffness_scale;
+             self.density_scale = calibration.density_scale;
+             self.stiffness_factor = calibration.factor;
            })
       .def("set_render", [](TetModel& self, const RenderMesh& surface) { self.render = surface; })
       .def("set_embedding", [](TetModel& self, const Embedding& embedding) { self.embedding = embedding; });

@@ -57,6 +57,7 @@ NB_MODULE(_core, m) {
   bind_stages(m);
   bind_pipeline(m);
   bind_surfaces(m);
+  bind_calibration(m);
   bind_models(m);
   bind_simulation(m);
   bind_files(m);

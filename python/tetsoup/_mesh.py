@@ -17,7 +17,7 @@ from tetsoup._core import InvalidInput
 from tetsoup._embedding import Embedding, embed
 from tetsoup._model import Axis, Body, Material, PartKind, Regions, make_model
 from tetsoup._page import Page, make_page
-from tetsoup._soup_input import as_indices, as_points, as_triple
+from tetsoup._soup_input import as_indices, as_points, as_soup, as_triple
 
 if TYPE_CHECKING:
     from tetsoup._progress import Progress
@@ -169,6 +169,7 @@ class TetMesh:
         pins: Mapping[str, npt.ArrayLike] | None = None,
         surface: Any = None,
         embedding: Embedding | None = None,
+        calibration: _core.Calibration | None = None,
     ) -> list[pathlib.Path]:
         """Writes a file, or several, whole or not at all: existing ones stay as they were if anything fails.
 
@@ -189,6 +190,7 @@ class TetMesh:
             pins: vertices to be held, (n,) integers by name; see `vertices_in_box`, `vertices_below`, `vertices_near`.
             surface: what is drawn: a `RenderMesh`, or what `embed` takes as one object.
             embedding: where the surface's vertices lie; None: `embed(surface)`.
+            calibration: from `calibrate`: every tet's stiffness and density, or what the format has a place for.
 
         Returns:
             The files written, the mesh's first.
@@ -205,11 +207,52 @@ class TetMesh:
         """
         if format is not None and engine is not None:
             raise InvalidInput("format and engine: at most one of them")
-        body = Body(name, up, density, young, poisson, metres_per_unit, regions, materials, pins, surface, embedding)
+        body = Body(
+            name,
+            up,
+            density,
+            young,
+            poisson,
+            metres_per_unit,
+            regions,
+            materials,
+            pins,
+            surface,
+            embedding,
+            calibration,
+        )
         model = make_model(self, body)
         if engine is None:
             return _core.write_tets(os.fspath(path), model, format)
         return _core.write_for_engine(os.fspath(path), model, engine, body.material_is_default)
+
+    def calibrate(
+        self,
+        soup: Any,
+        *,
+        poisson: float | None = None,
+        reference_tets: int | None = None,
+        progress: Progress | None = None,
+    ) -> _core.Calibration:
+        """Finds what to multiply each tet's stiffness and density by, so that the mesh moves like a fine one.
+
+        Args:
+            soup: what the mesh was made of: whatever `tetrahedralize` takes as one object.
+            poisson: Poisson ratio of the material, [0, 0.49] (0.3).
+            reference_tets: of the fine mesh, 1000..400000 (40000).
+
+        Returns:
+            `Calibration`: stiffness_scale (T,) and density_scale (T,) float32, factor, the best one for all tets, and
+            a report of eigenfrequencies, compliance and mass before and after.
+
+        Raises:
+            tetsoup.InvalidInput: if a number is out of range, or a tet is not positive.
+
+        Example:
+            >>> mesh.save("horse", engine="newton", calibration=mesh.calibrate("horse.obj"))
+        """
+        vertices, faces = as_soup(soup)
+        return _core.calibrate(self._handle, vertices, faces, poisson, reference_tets, progress)
 
     def embed(
         self,

@@ -54,6 +54,7 @@ class Body(NamedTuple):
     pins: Mapping[str, npt.ArrayLike] | None
     surface: Any
     embedding: Embedding | None
+    calibration: _core.Calibration | None = None
 
     @property
     def material_is_default(self) -> bool:
@@ -68,6 +69,12 @@ def make_model(mesh: TetMesh, body: Body) -> _core.TetModel:
     for name, vertices in (body.pins or {}).items():
         model.add_pin(name, np.unique(_below(vertices, f"pins[{name!r}]", len(mesh.points))))
     _add_surface(model, mesh, body)
+    if body.calibration is not None:
+        if len(body.calibration.stiffness_scale) != len(mesh.tets):
+            raise InvalidInput(
+                f"calibration is of {len(body.calibration.stiffness_scale)} tets, must be of {len(mesh.tets)}: the mesh's"
+            )
+        model.set_calibration(body.calibration)
     return model
 
 
