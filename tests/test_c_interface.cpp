@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <thread>
@@ -198,6 +201,25 @@ TEST_F(CPipeline, models_refuse_what_they_do_not_know) {
   const float one[3] = {0, 0, 0};
   tetsoup_floats view{};
   EXPECT_EQ(tetsoup_model_deform(model, one, 1, &view, nullptr), TETSOUP_INVALID_INPUT);
+  tetsoup_model_destroy(model);
+}
+
+TEST_F(CPipeline, models_are_calibrated_by_the_pipeline_they_are_of) {
+  tetsoup_model* model = nullptr;
+  const char* json = nullptr;
+  ASSERT_EQ(run("{\"voxels\": 24, \"tets\": 300}"), TETSOUP_OK);
+  ASSERT_EQ(tetsoup_model_create(pipeline, "ball", nullptr, nullptr, &model), TETSOUP_OK);
+  EXPECT_EQ(tetsoup_model_calibrate(model, nullptr, nullptr, nullptr, &json), TETSOUP_INVALID_INPUT);
+  const auto stop = [](const char*, double, void*) { return 0; };
+  EXPECT_EQ(tetsoup_model_calibrate(model, pipeline, stop, nullptr, &json), TETSOUP_CANCELLED);
+  ASSERT_EQ(tetsoup_model_calibrate(model, pipeline, nullptr, nullptr, &json), TETSOUP_OK);
+  EXPECT_NE(std::strstr(json, "\"factor\""), nullptr);
+  const std::string path = (std::filesystem::temp_directory_path() / "tetsoup_c_calibrated.json").string();
+  ASSERT_EQ(tetsoup_model_write(model, path.c_str(), nullptr, &json), TETSOUP_OK);
+  std::ifstream file(path);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_NE(text.find("\"stiffness_scale\": ["), std::string::npos);
+  std::filesystem::remove(path);
   tetsoup_model_destroy(model);
 }
 

@@ -14,9 +14,6 @@ namespace tetsoup::cli {
 
 namespace {
 
-/// Without a Poisson ratio that was asked for: factors differ by a few per cent between .3 and .4.
-constexpr double kUsualPoisson = 0.35;
-
 /// Every tet's modulus and density, over those of the first region.
 struct Values {
   std::vector<double> stiffness, density;

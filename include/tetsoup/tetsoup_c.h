@@ -183,6 +183,11 @@ tetsoup_status tetsoup_model_set_up(tetsoup_model* model, int32_t axis);
 /* Holds the vertices in a box, by a name in files; `count` of them, which may be NULL. */
 tetsoup_status tetsoup_model_add_pins(tetsoup_model* model, const char* name, const double low[3], const double high[3],
                                       size_t* count);
+/* Multiplies stiffness and density of each tet so that the mesh moves like one of 40,000 tets; files hold what they
+ * have a place for. `pipeline`: that the model is of; for the Poisson ratio of the material that was set, else .35.
+ * JSON, which may be NULL: "calibration" of `tetsoup mesh --json`, without files. */
+tetsoup_status tetsoup_model_calibrate(tetsoup_model* model, const tetsoup_pipeline* pipeline,
+                                       tetsoup_progress progress, void* context, const char** json);
 tetsoup_status tetsoup_model_vertices(const tetsoup_model* model, tetsoup_floats* vertices);
 tetsoup_status tetsoup_model_tets(const tetsoup_model* model, tetsoup_indices* tets);
 /* The surface at rest: (N, 3) and (T, 3), those of the soup. */

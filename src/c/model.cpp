@@ -1,9 +1,12 @@
 // C: the mesh with the surface that hangs on it, and files of both.
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "base/vec.h"
 #include "c/guard.h"
 #include "c/handles.h"
+#include "tetsoup/calibrate.h"
 #include "tetsoup/engines.h"
 #include "tetsoup/io.h"
 #include "tetsoup/report.h"
@@ -71,6 +74,24 @@ tetsoup_status tetsoup_model_add_pins(tetsoup_model* model, const char* name, co
     std::vector<std::uint32_t> vertices = vertices_in_box(m.make->mesh, box);
     if (count != nullptr) *count = vertices.size();
     m.settings.pins.push_back({&c::given(name, "name"), std::move(vertices)});
+  });
+}
+
+tetsoup_status tetsoup_model_calibrate(tetsoup_model* model, const tetsoup_pipeline* pipeline,
+                                       tetsoup_progress progress, void* context, const char** json) {
+  return c::guarded([&] {
+    tetsoup_model& m = c::given(model, "model");
+    const tetsoup_pipeline& p = c::given(pipeline, "pipeline");
+    const Progress watched = c::progress_of(progress, context);
+    CalibrateOptions options;
+    options.poisson =
+        m.material_is_default ? kUsualPoisson : std::min(m.settings.regions.front().material.poisson, 0.49);
+    const TetMesh fine = calibration_reference(p.input->soup, p.options, options.reference_tets, watched);
+    const Calibration made = calibrate_tets({&m.make->mesh, {}, {}}, {&fine, {}, {}}, options, watched);
+    m.settings.stiffness_scale = made.stiffness_scale;
+    m.settings.density_scale = made.density_scale;
+    m.settings.stiffness_factor = made.factor;
+    if (json != nullptr) *json = c::keep_text(to_json(made));
   });
 }
 
