@@ -29,9 +29,9 @@ export const kDark: Palette = {
   bodies: ['#4f9f98', '#c08a4c', '#7f8cc4', '#b57889'],
 };
 
-/** Degrees of the angles that the colours of quality stand for. */
+/** Degrees of the angles that the colours of quality stand for: below 20 the verdict objects, and so does the colour. */
 export const kAngleStops: readonly (readonly [number, string])[] =
-  [[10, '#b8400e'], [25, '#e08a3c'], [35, '#ead9a4'], [45, '#6fb3a8'], [60, '#0f766e']];
+  [[10, '#b8400e'], [20, '#e08a3c'], [25, '#dcd3ae'], [40, '#6fb3a8'], [60, '#0f766e']];
 
 const kTable = kAngleStops.map(([at, color]) => ({ at, color: new Color(color) }));
 

@@ -9,7 +9,7 @@ const kAxis = 14;
 
 /** The worst of an angle is its distance from flat, at either end. */
 function worst(degrees: number): number {
-  return degrees <= 70 ? degrees : Math.max(0, (180 - degrees) * 0.6);
+  return degrees <= 70 ? degrees : Math.max(0, (180 - degrees) * 0.8);
 }
 
 export function histogram(bins: readonly number[]): SVGElement {
