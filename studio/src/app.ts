@@ -1,11 +1,11 @@
 // The page: what the user does becomes settings, settings become wishes to the worker, and replies become pictures.
 import { Client } from './core/client';
-import type { Catalog, MeshResult, PlayStart, Reply, Report, Slice, SoupReport, Surface, Tets, Vec3 } from './core/protocol';
+import type { Catalog, Material, MeshResult, PlayStart, Reply, Report, Slice, SoupReport, Surface, Tets, Vec3 } from './core/protocol';
 import { Address } from './address';
 import { Play } from './play';
 import { Source } from './source';
 import type { Checked } from './ui/checks';
-import { fromAddress, kUnits, materialOf, meshOptions, meshSettings, type Settings, kViewKeys, Store, toAddress } from './state';
+import { fromAddress, heightOf, kUnits, materialOf, meshOptions, meshSettings, type Settings, kViewKeys, Store, toAddress } from './state';
 import { Theme } from './theme';
 import { guessUp } from './up';
 import { el, icon } from './ui/dom';
@@ -16,6 +16,7 @@ import { keysDialog, listenToKeys } from './ui/keys';
 import { makeNotice } from './ui/notice';
 import { Panels } from './ui/panels';
 import { Verdict } from './ui/verdict';
+import { asCommand, asPython } from './ui/recipe';
 import { Viewport } from './ui/viewport';
 import * as words from './ui/words';
 import { ModelView } from './view/model_view';
@@ -99,7 +100,7 @@ export class App {
       nothing: () => this.showNothing(),
     });
     this.play = new Play(this.client, this.stage, this.viewport,
-      () => ({ up: kUpAxis[this.store.now.up], material: materialOf(this.store.now) }), () => this.showLook(),
+      () => ({ up: kUpAxis[this.store.now.up], metres: kUnits[this.store.now.unit].metres, material: this.material() }), () => this.showLook(),
       ({ frames, framesPerSecond, simulate, draw, box }) => Object.assign(this.root.dataset, { frames, fps: framesPerSecond.toFixed(1),
         simulate: simulate.toFixed(1), draw: draw.toFixed(1), box: box.map((x) => x.toFixed(3)).join(' ') }));
     this.theme = new Theme((dark) => this.paint(dark));
@@ -199,7 +200,8 @@ export class App {
     const empty = emptyState(catalog, () => this.picker.click(), (name) => this.source.openSample(name), () => this.startPlaying('robots-on-tree'));
     this.empty.replaceWith(empty);
     this.empty = empty;
-    this.exporter = new ExportDialog(catalog, (choice) => this.export(choice), () => void this.savePicture());
+    this.exporter = new ExportDialog(catalog, (choice) => this.export(choice), () => void this.savePicture(),
+      (choice, language) => void this.copyRecipe(choice, language));
     this.root.append(this.exporter.element);
     this.root.dataset.threads = String(catalog.threads);
     this.viewport.show(this.store.now);
@@ -331,8 +333,8 @@ export class App {
       this.stage.setUp(kUpAxis[now.up]);
       this.fitByHand();
     }
-    if (differs('stiffness', 'density', 'poisson')) this.play.setMaterial(materialOf(now));
-    if (differs('unit')) this.showReports();
+    if (differs('stiffness', 'density', 'poisson')) this.play.setMaterial(this.material());
+    if (differs('unit', 'up', 'density', 'stiffness')) this.showReports();
     if (differs('sample', 'damage', 'file')) return void this.source.load();
     if (JSON.stringify(meshOptions(now)) !== JSON.stringify(meshOptions(before))) {
       this.view.placeFrame(now.translate, now.rotate);
@@ -373,7 +375,7 @@ export class App {
     this.root.dataset.state = 'busy';
     this.updateButtons();
     this.panels?.report('embedding', '', []);
-    this.meshJob = this.client.ask({ type: 'mesh', options: meshOptions(this.store.now), slice: this.viewport.cut, material: materialOf(this.store.now) });
+    this.meshJob = this.client.ask({ type: 'mesh', options: meshOptions(this.store.now), slice: this.viewport.cut, material: this.material() });
   }
 
   private askSlice(): void {
@@ -411,15 +413,17 @@ export class App {
     this.empty.hidden = true;
     this.viewport.setModel(true);
     this.play.started(start);
+    this.root.classList.add('playing');
     this.stage.resize();
     this.root.dataset.state = 'playing';
-    this.panels?.report('simulation', '', words.ofPlay(start));
+    this.panels?.reportPlay(words.ofPlay(start));
   }
 
   private stopPlaying(): void {
     if (!this.play.on) return;
     this.play.stop();
-    this.panels?.report('simulation', '', []);
+    this.root.classList.remove('playing');
+    this.panels?.reportPlay([]);
     this.viewport.setStatus(this.meshDone ? this.finished : '');
     this.root.dataset.state = this.meshDone ? 'done' : '';
     if (!this.soup) {
@@ -427,6 +431,11 @@ export class App {
       this.viewport.setModel(false);
     }
     this.fit();
+  }
+
+  private material(): Material {
+    const { now } = this.store;
+    return materialOf(now, this.soup ? heightOf(this.soup.box, now) : 1);
   }
 
   private openExport(): void {
@@ -437,13 +446,19 @@ export class App {
   private export(choice: ExportChoice): void {
     const { up, unit } = this.store.now;
     this.exportStem = choice.stem;
-    const wish = { ...choice, up: kUpAxis[up], metresPerUnit: kUnits[unit].metres, material: materialOf(this.store.now) };
+    const wish = { ...choice, up: kUpAxis[up], metresPerUnit: kUnits[unit].metres, material: this.material() };
     this.client.ask({ type: 'export', wish });
   }
 
   private async savePicture(): Promise<void> {
     const picture = await this.stage.picture();
     if (picture) download(`${this.store.now.file || this.store.now.sample || 'tetsoup'}.png`, picture);
+  }
+
+  private async copyRecipe(choice: ExportChoice, language: 'command' | 'python'): Promise<void> {
+    const text = language === 'python' ? asPython(this.store.now, choice, this.material()) : asCommand(this.store.now, choice, this.material());
+    const copied = await navigator.clipboard.writeText(text).then(() => true, () => false);
+    this.exporter?.recipe(text, copied);
   }
 
   private async copyLink(): Promise<void> {

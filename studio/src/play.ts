@@ -30,7 +30,7 @@ export class Play {
   private arrivals: { at: number; simulate: number; draw: number }[] = [];
 
   constructor(private readonly client: Client, private readonly stage: Stage, private readonly viewport: Viewport,
-              private readonly settings: () => { up: number; material: Material }, private readonly changed: () => void,
+              private readonly settings: () => { up: number; metres: number; material: Material }, private readonly changed: () => void,
               private readonly noted: (stats: PlayStats) => void) {
     this.view = new PlayView(stage, {
       grab: (body, vertex, target: Vec3) => client.send({ type: 'grab', body, vertex, target }),
@@ -43,8 +43,8 @@ export class Play {
     this.view.keepLook(keepLook);
     this.scene = scene;
     this.viewport.setStatus(scene ? 'Meshing the scene' : 'Preparing the body', true, scene !== null);
-    const { up, material } = this.settings();
-    this.client.ask({ type: 'play', wish: { scene, up, material: scene ? null : material, drawnBy: this.stage.drawnBy } });
+    const { up, metres, material } = this.settings();
+    this.client.ask({ type: 'play', wish: { scene, up, metres, material: scene ? null : material, drawnBy: this.stage.drawnBy } });
   }
 
   started(start: PlayStart): void {

@@ -1,5 +1,5 @@
 // What the user chose, its history, and its place in the page's address.
-import type { Material, MeshOptions, Vec3 } from './core/protocol';
+import type { Box, Material, MeshOptions, Vec3 } from './core/protocol';
 
 export type View = 'soup' | 'votes' | 'lattice' | 'tets' | 'surface';
 
@@ -44,8 +44,8 @@ export interface Settings extends ViewSettings {
   snap: 'on' | 'off';
   /** Degrees that smoothing leaves between two faces. */
   min_angle: number;
-  /** Decimal logarithm of Young's modulus in Pa. */
-  stiffness: number;
+  /** Decimal logarithm of Young's modulus in Pa; null: so stiff that the body hardly sags. */
+  stiffness: number | null;
   /** kg/m^3. */
   density: number;
   poisson: number;
@@ -58,7 +58,7 @@ export const kDefaults: Readonly<Settings> = {
   voxels: 96, k: null, cavities: 'auto',
   tets: 2000, lattice: 'five', min_part: 0.001, boundary_only: 'leave', rho: 0.5, translate: [0, 0, 0], rotate: [0, 0, 0], fit: 'off',
   passes: 6, strength: 1, snap: 'on', min_angle: 25,
-  stiffness: 4.8, density: 1000, poisson: 0.4,
+  stiffness: null, density: 1000, poisson: 0.4,
   view: 'tets', edges: 'on', quality: 'off', ghost: 'off', cut: 'off', cut_at: 0.5, cut_side: 'high', slice: 'y', slice_at: 0.5,
   camera: null,
 };
@@ -95,9 +95,27 @@ export function meshSettings(s: Settings): Partial<Settings> {
   return Object.fromEntries(kMeshKeys.map((key) => [key, s[key]]));
 }
 
+const kGravity = 9.81;
+/** Of its height that a body sags whose stiffness nobody chose. */
+const kSag = 0.15;
+export const kSoftest = 3.7;
+export const kStiffest = 7;
+
+/** Young's modulus as a power of ten, of a body of this height in metres. */
+export function stiffnessOf(s: Settings, height: number): number {
+  const wanted = Math.log10((s.density * kGravity * height) / kSag);
+  return s.stiffness ?? Number(Math.min(kStiffest, Math.max(kSoftest, wanted)).toFixed(1));
+}
+
 /** What falls and what is written into files is of one material. */
-export function materialOf(s: Settings): Material {
-  return { density: s.density, young: Number((10 ** s.stiffness).toPrecision(3)), poisson: s.poisson };
+export function materialOf(s: Settings, height: number): Material {
+  return { density: s.density, young: Number((10 ** stiffnessOf(s, height)).toPrecision(3)), poisson: s.poisson };
+}
+
+/** Metres from the lowest to the highest point of a model, the way up that was chosen. */
+export function heightOf({ lo, hi }: Box, s: Settings): number {
+  const axis = 'xyz'.indexOf(s.up);
+  return (hi[axis] - lo[axis]) * kUnits[s.unit].metres;
 }
 
 /** Only what differs from the defaults, so that addresses stay short; of a file also what else would be guessed. */
@@ -121,7 +139,7 @@ export function fromAddress(hash: string): Settings {
       if (numbers.length === 6 && numbers.every(Number.isFinite)) s[key] = numbers;
     } else if (Array.isArray(fallback)) {
       if (numbers.length === 3 && numbers.every(Number.isFinite)) s[key] = numbers;
-    } else if (key === 'k' || typeof fallback === 'number') {
+    } else if (key === 'k' || key === 'stiffness' || typeof fallback === 'number') {
       if (text !== '' && Number.isFinite(numbers[0])) s[key] = numbers[0];
     } else if (!choices || choices.includes(text)) s[key] = text;
   }

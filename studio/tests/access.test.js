@@ -38,6 +38,7 @@ const kStates = [
     await settled(page);
     await page.click('[data-flag=quality]');
     await page.click('[data-control=clip]');
+    await page.click('#panel-advanced > summary');
     await page.click('#place > summary');
     await page.click('#panel-volume .more >> nth=0');
   }],
@@ -100,6 +101,7 @@ for (const [size, viewport, least] of [['1280', kWide, kPointer], ['390', kNarro
 test('all is reached by keyboard', async () => {
   await studio.with('#sample=torus&voxels=48', async (page) => {
     await settled(page);
+    await page.click('#panel-advanced > summary');
     await page.locator('input[data-control=passes][type=range]').focus();
     const { job } = await state(page);
     await page.keyboard.press('ArrowRight');
@@ -112,12 +114,12 @@ test('all is reached by keyboard', async () => {
     await page.locator('[data-control=up][value=y]').focus();
     await page.keyboard.press('5');
     assert.match(page.url(), /view=surface/, 'a choice has no use for digits');
-    await page.locator('#panel-volume .number').first().focus();
+    await page.locator('#panel-mesh .number').first().focus();
     await page.keyboard.press('3');
     assert.match(page.url(), /view=surface/, 'a number has');
     await page.click('#export');
     await page.keyboard.press('Escape');
-    assert.equal(await page.locator('dialog').isVisible(), false);
+    assert.equal(await page.locator('dialog[open]').count(), 0);
     assert.equal(await page.evaluate(() => document.activeElement?.id), 'export', 'the keyboard is back where it was');
   });
 });

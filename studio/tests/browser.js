@@ -9,7 +9,7 @@ import { serve } from './server.js';
 
 export const studio = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 export const repository = resolve(studio, '..');
-export const dist = join(studio, 'dist');
+export const dist = process.env.STUDIO_DIST ?? join(studio, 'dist');
 export const kWide = { width: 1280, height: 800 };
 export const kNarrow = { width: 390, height: 844 };
 
@@ -108,6 +108,11 @@ export async function push(page, control, value) {
     input.dispatchEvent(new Event('input', { bubbles: true }));
     input.dispatchEvent(new Event('change', { bubbles: true }));
   }, value);
+}
+
+/** Where the slider of stiffness stands at so many powers of ten of a pascal. */
+export function travelOf(stiffness) {
+  return Math.round((1000 * (stiffness - 3.7)) / 3.3);
 }
 
 /** Waits until so many frames were played since it began. */

@@ -78,6 +78,25 @@ test('one file is saved as it is, several in a zip', async (t) => {
   });
 });
 
+test('what is copied as a command makes the same file with the tool, to the bit', async (t) => {
+  if (!existsSync(kTool)) return t.skip('build/release/bin/tetsoup is not there');
+  await studio.with('#sample=robot&damage=20&voxels=64&tets=900&k=0.97&rho=0.4&rotate=0,15,0&translate=-0.2,0,0.1&passes=4&min_angle=22&stiffness=5.2', async (page) => {
+    await settled(page);
+    await page.click('#export');
+    await page.fill('#export-name', 'again');
+    const [mesh] = await save(page, 'format:msh22');
+    await page.click('#copy-command');
+    const command = await page.textContent('dialog pre');
+    const folder = join(kFolder, 'copied');
+    mkdirSync(folder, { recursive: true });
+    for (const line of command.trim().split('\n')) execFileSync(kTool, [...line.split(' ').slice(1), '--quiet'], { cwd: folder });
+    assert.ok(readFileSync(join(folder, 'again.msh')).equals(readFileSync(mesh)));
+    await page.click('#copy-python');
+    await page.waitForSelector('dialog pre:has-text("import")');
+    assert.match(await page.textContent('dialog pre'), /tetsoup\.tetrahedralize\(tetsoup\.sample\("robot", damage=0\.2\), voxels=64, tets=900, k=0\.97, .*math\.radians\(15\)/);
+  });
+});
+
 test('a picture of the view is saved', async () => {
   await studio.with('#sample=torus&voxels=48', async (page) => {
     await settled(page);

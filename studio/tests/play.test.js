@@ -1,7 +1,7 @@
 // Bodies that fall, are pulled, and become softer; how fast all that is.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { atRest, boxOf, played, push, settled, state, Studio } from './browser.js';
+import { atRest, boxOf, played, push, settled, state, Studio, travelOf } from './browser.js';
 
 /** Milliseconds that simulating a frame may take: 20 frames a second. */
 const kMostSimulating = 50;
@@ -64,10 +64,10 @@ test('a softer body is flatter where it lies, and a stiffer one rises', async ()
     await page.click('#drop');
     await played(page, 90);
     const stiff = await boxOf(page);
-    await push(page, 'stiffness', 3.7);
+    await push(page, 'stiffness', travelOf(3.7));
     const soft = await until(page, (box) => box.height < 0.8 * stiff.height, 'it sinks');
     assert.ok(soft.width > stiff.width, 'what it loses in height it wins in width');
-    await push(page, 'stiffness', 6.5);
+    await push(page, 'stiffness', travelOf(6.5));
     await until(page, (box) => box.height > 0.95 * stiff.height, 'it rises');
   });
 });
@@ -81,5 +81,21 @@ test('four robots on the tree are simulated at 20 frames a second or better, and
     assert.ok(Number(fps) >= kLeastFrames, `${fps} frames/s`);
     assert.match(await page.textContent('[data-report=simulation]'), /No graphics card/, 'who draws is said');
     assert.match(await page.textContent('.status'), /frames\/s · simulating .*, drawing/, 'times are said apart');
+  });
+});
+
+test('a body falls in its own size, of the material that is said, and the panel shows that alone', async () => {
+  await studio.with('#sample=torus&voxels=48&tets=500&unit=cm', async (page) => {
+    await settled(page);
+    const said = await page.textContent('[data-report=simulation]');
+    assert.match(said, /1\.5 m long, [\d,.]+ kg/);
+    await page.click('#drop');
+    await played(page, 30);
+    const box = await boxOf(page);
+    assert.ok(Math.abs(box.width / 1.5 - 1) < 0.2, `${box.width} m`);
+    assert.equal(await page.locator('#panel-soup').isVisible(), false);
+    assert.equal(await page.locator('#panel-simulation').isVisible(), true);
+    await page.click('#back');
+    assert.equal(await page.locator('#panel-soup').isVisible(), true);
   });
 });

@@ -63,6 +63,7 @@ test('a real model is dropped, meshed, and said in plain words', async (t) => {
 test('every slider changes the mesh', async () => {
   await studio.with('#sample=robot&voxels=64&snap=off', async (page) => {
     let { volume, job } = await settled(page);
+    await page.click('#panel-advanced > summary');
     await page.click('[data-control=k-auto]');
     // The intact robot is sound: its mesh stays what it was, so the slider's mesh must not be taken for this one.
     await page.waitForFunction((old) => {
@@ -84,6 +85,7 @@ test('every slider changes the mesh', async () => {
 test('the mesh follows a slider', { skip: kQuick }, async () => {
   await studio.with('#sample=robot', async (page) => {
     await settled(page);
+    await page.click('#panel-advanced > summary');
     await page.click('[data-control=k-auto]');
     const said = [];
     // Travel of the default, and to the next value.
@@ -212,11 +214,11 @@ test('a broken file and too many voxels are errors that say what to do', async (
     await page.waitForSelector('.notice.watch:not([hidden])');
     assert.match(await page.textContent('.notice'), /cannot be read.*Export it again as OBJ/s);
     await page.click('.notice button');
-    await page.fill('#panel-volume .number >> nth=0', '2048');
+    await page.fill('#panel-mesh .number >> nth=1', '2048');
     await page.keyboard.press('Enter');
     await page.waitForSelector('.notice.watch:not([hidden])', { timeout: 60000 });
     assert.match(await page.textContent('.notice'), /memory.*[Cc]hoose fewer voxels/s);
-    await page.fill('#panel-volume .number >> nth=0', '48');
+    await page.fill('#panel-mesh .number >> nth=1', '48');
     await page.keyboard.press('Enter');
     await settled(page);
     assert.equal((await state(page)).tets, done.tets, 'the page goes on');

@@ -12,6 +12,7 @@ async function measure(isolated) {
   const studio = await Studio.open({ isolated });
   const page = await studio.page('#sample=robot&voxels=96&tets=2000');
   await settled(page);
+  await page.click('#panel-advanced > summary');
   await page.click('[data-control=k-auto]');
   await page.click('#place > summary');
   await settled(page);

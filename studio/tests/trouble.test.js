@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { unzipSync } from 'fflate';
 import { PNG } from 'pngjs';
-import { boxOf, kOut, played, push, settled, state, Studio } from './browser.js';
+import { boxOf, kOut, played, push, settled, state, Studio, travelOf } from './browser.js';
 
 let studio;
 before(async () => {
@@ -89,7 +89,7 @@ test('errors say what is wrong, and nothing spins afterwards', async () => {
     await open(page, 'words.obj', 'this is no model\nat all\n');
     await page.waitForFunction(() => /words\.obj/.test(document.querySelector('.notice').textContent));
     assert.doesNotMatch(await complaint(page), /\?\.|voxels/);
-    await page.fill('#panel-volume .number >> nth=0', '2048');
+    await page.fill('#panel-mesh .number >> nth=1', '2048');
     await page.keyboard.press('Enter');
     await page.waitForFunction(() => /fewer voxels/.test(document.querySelector('.notice')?.textContent ?? ''));
     assert.doesNotMatch(await page.textContent('.notice'), /2\^40/);
@@ -169,7 +169,7 @@ test('while robots play, dragging the stiffness meshes them once more, not at ev
     await page.evaluate(async () => {
       const range = document.querySelector('input[type=range][data-control=stiffness]');
       for (let i = 0; i < 12; ++i) {
-        range.value = String(4.5 + 0.1 * i);
+        range.value = String(240 + 30 * i);
         range.dispatchEvent(new Event('input', { bubbles: true }));
         await new Promise((done) => setTimeout(done, 60));
       }
@@ -184,7 +184,7 @@ test('a body that was squeezed does not fly off when it becomes stiff', async ()
     await settled(page);
     await page.click('#drop');
     await played(page, 120);
-    await push(page, 'stiffness', 7);
+    await push(page, 'stiffness', travelOf(7));
     let highest = 0;
     for (let i = 0; i < 20; ++i) {
       await page.waitForTimeout(100);

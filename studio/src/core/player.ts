@@ -4,13 +4,14 @@ import type { BodyFrame, BodyShape, Frame, Material, PlayStart, PlayWish, Report
 import type { Body } from './body';
 import type { Mesher } from './mesher';
 
-/** The meshed body is played at this length of its longest side, whatever its unit. */
-const kSize = 1;
+/** Of lengths, in metres, a body is played in its own size; else one metre long. */
+const kPlayed = [0.05, 20] as const;
+/** Of its size. */
 const kDropHeight = 0.35;
 const kStep = 1 / 60;
 /** A handful of vertices is pulled, so that a pull does not tear at a single one. */
 const kGrabbed = 8;
-/** The pull of one metre in multiples of the body's weight. */
+/** The pull of a body's length in multiples of its weight. */
 const kPull = 12;
 const kGravity = 9.81;
 /** Triangles that a processor draws in some ten milliseconds. */
@@ -20,9 +21,9 @@ const kAllThreads = 0;
 const kFeel = { damping_time: 0.004, friction: 0.8 };
 const kWater: Material = { density: 1000, young: 63000, poisson: 0.4 };
 /** A squeezed body that became stiff at once would fly off: its stiffness changes by at most this factor a frame, */
-const kStiffening = 1.25;
+const kStiffening = 1.2;
 /** and of its speed this much is left. */
-const kCalmed = 0.8;
+const kCalmed = 0.5;
 
 interface SceneBody {
   material?: Partial<Material>;
@@ -34,6 +35,7 @@ export class Player {
   private springs: { spring: number; offset: Vec3 }[] = [];
   private bodyCount = 0;
   private mass = 1;
+  private size = 1;
   /** As it is, and as it shall be. */
   private material: Material | null = null;
   private wanted: Material | null = null;
@@ -63,7 +65,7 @@ export class Player {
       const surfaces = this.frame().bodies;
       await spare([...bodies.map((body, i) => ({ ...surfaces[i], skin: body })), ...obstacles.map((o) => ({ ...o, skin: o }))], triangleCount);
     }
-    return { bodies, obstacles, tetCount: report.tet_count, triangleCount, title };
+    return { bodies, obstacles, tetCount: report.tet_count, triangleCount, title, size: this.size };
   }
 
   /** From the next frames on. A scene's bodies are made anew for it, which takes long, so they change in one go. */
@@ -118,6 +120,7 @@ export class Player {
       core.call('scene_load', text, 0, core.progress, 0, core.result));
     this.simulation = core.word();
     this.mass = 20;
+    this.size = 1;
     return scene.title ?? name;
   }
 
@@ -126,7 +129,10 @@ export class Player {
     const up = this.wish?.up ?? 2;
     const { soup, quality } = this.mesher.report as Report;
     const extent = soup.box.hi.map((hi, i) => hi - soup.box.lo[i]);
-    const scale = kSize / Math.max(...extent);
+    const longest = Math.max(...extent);
+    const size = longest * (this.wish?.metres ?? 1);
+    this.size = size >= kPlayed[0] && size <= kPlayed[1] ? size : 1;
+    const scale = this.size / longest;
     this.mass = material.density * quality.volume * scale ** 3;
     const middle = soup.box.lo.map((lo, i) => (lo + soup.box.hi[i]) / 2);
     // Quarter turns: with y up, one about x brings (x, y, z) to (x, -z, y); with x up, one about y brings it to (-z, y, x).
@@ -135,7 +141,7 @@ export class Player {
     const place = {
       scale,
       rotate: [[0, -90, 0], [90, 0, 0], [0, 0, 0]][up],
-      translate: [-scale * turned[0], -scale * turned[1], kDropHeight - scale * lowest],
+      translate: [-scale * turned[0], -scale * turned[1], kDropHeight * this.size - scale * lowest],
     };
     const model = this.body.get();
     core.withTexts(['{}'], (options) => core.call('simulation_create', options, core.result));
@@ -144,7 +150,7 @@ export class Player {
       core.call('simulation_add_model', this.simulation, model, material, where, core.result));
     core.withDoubles([0, 0, 1], (normal) =>
       core.call('simulation_add_plane', this.simulation, normal, 0, kFeel.friction));
-    return 'The body falls on the ground';
+    return this.size === size ? 'The body falls on the ground' : 'The body falls on the ground, as if it were 1 m long';
   }
 
   private shapes(): BodyShape[] {
@@ -200,7 +206,7 @@ export class Player {
     const distance = (i: number) => Math.hypot(...at(i).map((x, axis) => x - centre[axis]));
     const near = Array.from({ length: positions.length / 3 }, (_, i) => i)
       .sort((a, b) => distance(a) - distance(b)).slice(0, kGrabbed);
-    const stiffness = (kPull * this.mass * kGravity) / near.length;
+    const stiffness = (kPull * this.mass * kGravity) / near.length / this.size;
     for (const i of near) {
       const offset = at(i).map((x, axis) => x - centre[axis]) as Vec3;
       const goal = target.map((x, axis) => x + offset[axis]);

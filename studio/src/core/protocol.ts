@@ -182,6 +182,8 @@ export interface PlayWish {
   /** A built-in scene, or the body that was meshed. */
   scene: string | null;
   up: number;
+  /** Of a unit of the body that was meshed. */
+  metres: number;
   /** Null: as the scene has it. */
   material: Material | null;
   /** Who draws: a processor that does is spared triangles, and has the second core to itself. */
@@ -201,6 +203,8 @@ export interface PlayStart {
   tetCount: number;
   triangleCount: number;
   title: string;
+  /** Length of the body's longest side, metres; what is drawn around it goes by it. */
+  size: number;
 }
 export interface BodyFrame {
   vertices: Float32Array;

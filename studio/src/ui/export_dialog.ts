@@ -18,7 +18,8 @@ export class ExportDialog {
   private readonly note = el('p', { class: 'note', role: 'status' });
   private readonly save = el('button', { type: 'submit', class: 'primary', id: 'export-save' }, 'Download');
 
-  constructor(private readonly catalog: Catalog, onExport: (choice: ExportChoice) => void, onPicture: () => void) {
+  constructor(private readonly catalog: Catalog, onExport: (choice: ExportChoice) => void, onPicture: () => void,
+              onRecipe: (choice: ExportChoice, language: 'command' | 'python') => void) {
     const group = (label: string, prefix: string, rows: { name: string; title?: string; summary: string }[]) => {
       const options = rows.map((row) => el('option', { value: `${prefix}:${row.name}` }, row.title ?? row.summary));
       const element = el('optgroup', { label }, ...options);
@@ -33,6 +34,9 @@ export class ExportDialog {
       el('h2', { id: 'export-title' }, 'Export'),
       el('div', { class: 'field' }, el('label', { for: 'export-what' }, 'As'), this.what),
       el('div', { class: 'field' }, el('label', { for: 'export-name' }, 'Name'), this.name),
+      el('div', { class: 'recipes' }, el('span', {}, 'The same without this page:'),
+        el('button', { type: 'button', id: 'copy-command', onclick: () => onRecipe(this.choice(), 'command') }, 'Copy as command'),
+        el('button', { type: 'button', id: 'copy-python', onclick: () => onRecipe(this.choice(), 'python') }, 'Copy as Python')),
       this.note,
       el('div', { class: 'buttons' },
         el('button', { type: 'button', id: 'export-picture', onclick: onPicture }, 'Picture of the view'),
@@ -74,6 +78,11 @@ export class ExportDialog {
     const saved = files.length === 1 ? `Saved ${names}. ` : `Saved ${stem}.zip with ${names}. `;
     const next = files.length === 1 ? 'Next: ' : 'Next, where you unpacked it: ';
     this.note.replaceChildren(saved, ...(usage ? [next, el('code', {}, usage)] : []));
+  }
+
+  /** A text that was copied, or that is there to be copied by hand. */
+  recipe(text: string, copied: boolean): void {
+    this.note.replaceChildren(copied ? 'Copied:' : 'Copy this:', el('pre', {}, text));
   }
 
   failed(text: string): void {

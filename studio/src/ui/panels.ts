@@ -1,15 +1,17 @@
 // The panels at the side, in the order of the flow: each a few controls, and what came of them in plain words.
 import type { Catalog, Report, SoupReport } from '../core/protocol';
-import { kDefaults, kUnits, type Settings, type Store } from '../state';
+import { heightOf, kDefaults, kSoftest, kStiffest, kUnits, type Settings, stiffnessOf, type Store } from '../state';
 import { choice, type Control, select, slider, toggle } from './controls';
 import { el } from './dom';
 import * as words from './words';
 
-export type PanelName = 'soup' | 'volume' | 'lattice' | 'smoothing' | 'embedding' | 'simulation';
+export type PanelName = 'soup' | 'mesh' | 'simulation' | 'volume' | 'lattice' | 'smoothing' | 'embedding';
 
 const kTitles: Record<PanelName, string> = {
-  soup: 'Soup', volume: 'Volume', lattice: 'Lattice', smoothing: 'Smoothing', embedding: 'Embedding', simulation: 'Simulation',
+  soup: 'Soup', mesh: 'Mesh', simulation: 'Material', volume: 'Volume', lattice: 'Lattice', smoothing: 'Smoothing', embedding: 'Embedding',
 };
+/** What few people turn; folded away until they do. */
+const kAdvanced: readonly PanelName[] = ['volume', 'lattice', 'smoothing', 'embedding'];
 
 export interface PanelActions {
   open(): void;
@@ -29,6 +31,7 @@ interface Panel {
 
 export class Panels {
   readonly element = el('aside', { 'aria-label': 'Settings' });
+  private readonly advanced = el('details', { class: 'advanced', id: 'panel-advanced' }, el('summary', {}, 'Advanced'));
   private readonly panels = new Map<PanelName, Panel>();
   private readonly bindings: ((s: Settings) => void)[] = [];
   private readonly gizmoButtons = new Map<string, HTMLButtonElement>();
@@ -37,7 +40,9 @@ export class Panels {
 
   constructor(private readonly store: Store, private readonly actions: PanelActions, catalog: Catalog) {
     for (const name of Object.keys(kTitles) as PanelName[]) this.addPanel(name);
+    this.element.append(this.advanced);
     this.fillSoup(catalog);
+    this.fillMesh();
     this.fillVolume();
     this.fillLattice();
     this.fillSmoothing();
@@ -65,7 +70,8 @@ export class Panels {
     const element = el('details', { class: 'panel', id: `panel-${name}`, open: true },
       el('summary', {}, kTitles[name], brief), body);
     this.panels.set(name, { element, brief, report, body });
-    this.element.append(element);
+    if (kAdvanced.includes(name)) this.advanced.append(element);
+    else this.element.append(element);
   }
 
   private put(name: PanelName, ...elements: Node[]): void {
@@ -100,13 +106,19 @@ export class Panels {
         change: (unit) => this.store.set({ unit }) }), (s) => s.unit)), this.doubt);
   }
 
+  private fillMesh(): void {
+    this.put('mesh',
+      this.number('tets', { label: 'Tets', min: 100, max: 20000, most: 500000, step: 1, logarithmic: true,
+        hint: 'How many tetrahedra the mesh shall have; it has as many within 5 %.' }),
+      this.number('voxels', { label: 'Voxels along the longest side', min: 16, max: 256, most: 2048, step: 8,
+        hint: 'The grid on which inside and outside are decided. More see finer parts, and take longer; the tool alone takes 128.' }));
+  }
+
   private fillVolume(): void {
     const k = slider({ id: 'k', label: 'Reach, k', min: 0.5, max: 1, step: 0.002, unit: '',
       hint: 'How far from a triangle a surface is still felt. 1 is the triangles alone; less bridges wider gaps between them, and thickens thin parts.',
       change: (value) => this.store.set({ k: value }), done: () => this.store.endStep() });
     this.put('volume',
-      this.number('voxels', { label: 'Voxels along the longest side', min: 16, max: 256, most: 2048, step: 8,
-        hint: 'The grid on which inside and outside are decided. More see finer parts, and take longer.' }),
       this.bind(toggle({ id: 'k-auto', label: 'Choose k for me', hint: 'Takes the k for which the rays agree best on what is inside.',
         change: (on) => this.store.set({ k: on ? null : this.lastK }) }), (s) => s.k === null),
       this.bind(k, (s) => s.k ?? this.lastK),
@@ -124,8 +136,6 @@ export class Panels {
 
   private fillLattice(): void {
     this.put('lattice',
-      this.number('tets', { label: 'Tets', min: 100, max: 20000, most: 500000, step: 1, logarithmic: true,
-        hint: 'How many tetrahedra the mesh shall have; it has as many within 5 %.' }),
       this.bind(choice({ id: 'lattice', label: 'Lattice', hint: 'Cubes of five tets each, or body-centred cubes whose tets are all alike and rounder.',
         choices: [['five', 'Five a cube'], ['bcc', 'Body-centred']], change: (lattice) => this.store.set({ lattice }) }), (s) => s.lattice),
       this.number('rho', { label: 'Share that must be inside, ρ', min: 0.05, max: 1, step: 0.05,
@@ -187,16 +197,17 @@ export class Panels {
 
   private fillSimulation(): void {
     const likeness = el('span', { class: 'unit' });
-    const stiffness = slider({ id: 'stiffness', label: 'Stiffness', min: 3.7, max: 7, step: 0.1,
-      hint: 'Young’s modulus as a power of ten in pascals: 4 is jelly, 6 is rubber. It holds while playing and in files for engines.',
-      change: (value) => this.store.set({ stiffness: value }), done: () => this.store.endStep() });
-    this.bindings.push((s) => (likeness.textContent = `${words.pascals(10 ** s.stiffness)}: ${words.likeWhat(10 ** s.stiffness)}`));
+    const stiffness = slider({ id: 'stiffness', label: 'Stiffness', unit: 'kPa', min: 10 ** (kSoftest - 3), max: 10 ** (kStiffest - 3), most: 1e7, step: 0.1, logarithmic: true,
+      hint: 'Young’s modulus: jelly has 10 kPa, rubber 1,000 or more. Until you choose one it is such that the body hardly sags. It holds while playing and in files for engines.',
+      change: (value) => this.store.set({ stiffness: Number(Math.log10(1000 * value).toFixed(3)) }), done: () => this.store.endStep() });
+    const now = (s: Settings) => stiffnessOf(s, this.height);
+    this.bindings.push((s) => (likeness.textContent = words.likeWhat(10 ** now(s))));
     const robots = el('button', { type: 'button', id: 'robots', onclick: () => this.actions.play('robots-on-tree') }, 'Robots on a tree');
-    this.put('simulation', el('div', { class: 'row' }, robots), this.bind(stiffness, (s) => s.stiffness), likeness,
+    this.put('simulation', el('div', { class: 'triple' }, this.bind(stiffness, (s) => Number((10 ** (now(s) - 3)).toPrecision(3))), likeness),
       this.number('density', { label: 'Density', unit: 'kg/m³', min: 20, max: 10000, most: 100000, step: 1, logarithmic: true,
         hint: 'Mass of a cubic metre: foam has 50, water 1,000, steel 7,800.' }),
       this.number('poisson', { label: 'Poisson ratio', min: 0, max: 0.49, step: 0.01,
-        hint: 'How much it grows aside when it is squeezed: cork 0, most materials 0.3 to 0.4, rubber 0.49, which keeps its volume.' }));
+        hint: 'How much it grows aside when it is squeezed: cork 0, most materials 0.3 to 0.4, rubber 0.49, which keeps its volume.' }), robots);
   }
 
   private need(button: HTMLButtonElement): HTMLButtonElement {
@@ -211,6 +222,19 @@ export class Panels {
     this.gizmoButtons.forEach((button) => (button.disabled = !mesh));
   }
 
+  /** Of the model, metres. */
+  private height = 1;
+  private body: readonly words.Sentence[] = [];
+  private reportBody(report: Report): void {
+    this.body = report.quality.tet_count ? words.ofBody(report, this.store.now) : [];
+    this.reportPlay([]);
+  }
+
+  /** What falls, and how it plays. */
+  reportPlay(played: readonly words.Sentence[]): void {
+    this.report('simulation', words.pascals(10 ** stiffnessOf(this.store.now, this.height)), [...this.body, ...played]);
+  }
+
   /** Asks whether a size that is unlikely is meant. */
   private showDoubt(soup: SoupReport | null): void {
     const doubt = soup && words.ofDoubt(soup.box, this.store.now.unit);
@@ -220,6 +244,7 @@ export class Panels {
 
   clear(): void {
     this.showDoubt(null);
+    this.body = [];
     for (const name of this.panels.keys()) this.report(name, '', []);
   }
 
@@ -231,12 +256,16 @@ export class Panels {
   showReports(soup: SoupReport, report: Report | null): void {
     const { now } = this.store;
     this.showDoubt(soup);
+    this.height = heightOf(soup.box, now);
+    this.show(now);
     this.report('soup', words.count(soup.used_triangles, 'triangle'), words.ofSoup(soup, now.unit));
     if (!report) return;
     const { pseudo_volume, lattice, quality } = report;
     if (pseudo_volume.automatic && now.k === null) this.setAutomaticK(pseudo_volume.k);
+    this.report('mesh', words.count(lattice.tet_count, 'tet'), words.ofMesh(report, now));
+    this.reportBody(report);
     this.report('volume', `k = ${pseudo_volume.k.toFixed(3)}`, words.ofVolume(report, now));
-    this.report('lattice', words.count(lattice.tet_count, 'tet'), words.ofLattice(report, now));
+    this.report('lattice', '', words.ofLattice(report, now));
     const angles = quality.tet_count ? `${quality.min_dihedral_deg.toFixed(0)}° to ${quality.max_dihedral_deg.toFixed(0)}°` : '';
     this.report('smoothing', angles, words.ofSmoothing(report));
   }

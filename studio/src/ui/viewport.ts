@@ -11,6 +11,8 @@ const kViews: readonly (readonly [View, string])[] =
   [['soup', 'Soup'], ['votes', 'Votes'], ['lattice', 'Lattice'], ['tets', 'Tets'], ['surface', 'Surface']];
 const kAxes = [['x', 'x'], ['y', 'y'], ['z', 'z']] as const;
 
+/** Degrees that are said at the scale of angles, which goes from 10 to 60. */
+const kAngleMarks = [10, 20, 40, 60];
 /** Milliseconds of work after which there is a button to end it. */
 const kSlow = 600;
 
@@ -67,7 +69,7 @@ export class Viewport {
       el('button', { type: 'button', id: 'back', 'aria-label': 'Back', onclick: () => actions.stop() }, ...pictured('close', 'Back')));
     this.cutTool = this.makeCutTool();
     [this.clipTool, this.clipRows] = this.makeClipTool();
-    this.element = el('main', { class: 'without-model', 'aria-label': 'Model' }, this.canvas,
+    this.element = el('main', { class: 'without-model', id: 'model', 'aria-label': 'Model' }, this.canvas,
       el('div', { class: 'bar top' }, this.viewBar, this.playBar, fit, this.status, this.cancelButton, el('div', { class: 'beside', hidden: !beside.buttons.length }, ...beside.buttons)),
       beside.card,
       el('div', { class: 'bottom' }, el('div', {}, this.cutTool, this.clipTool), this.legend));
@@ -203,7 +205,7 @@ export class Viewport {
     const scale = [
       el('strong', {}, 'Smallest of each tet'),
       el('div', { class: 'scale', style: `background: ${gradient(kAngleStops)}` }),
-      el('div', { class: 'ends' }, ...kAngleStops.map(([at]) => el('span', {}, `${at}°`))),
+      el('div', { class: 'ends exact' }, ...kAngleMarks.map((at) => el('span', { style: `left: ${2 * (at - 10)}%` }, `${at}°`))),
     ];
     this.legend.replaceChildren(el('div', { class: 'part' }, el('strong', {}, 'Angles between faces'), histogram(bins)),
       ...(byQuality ? [el('div', { class: 'part' }, ...scale)] : []));

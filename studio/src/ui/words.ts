@@ -1,5 +1,5 @@
 // Reports in plain words. Every sentence says what is, and where something can be done about it, what.
-import { kUnits, type Settings } from '../state';
+import { heightOf, kUnits, type Settings, stiffnessOf } from '../state';
 import type { Box, EmbedReport, PlayStart, Report, SoupReport } from '../core/protocol';
 
 export type Tone = 'plain' | 'good' | 'watch';
@@ -99,6 +99,17 @@ export function ofVolume(r: Report, s: Wanted): Sentence[] {
   return said;
 }
 
+/** What matters most of a mesh; the rest is with the stage that made it. */
+export function ofMesh(r: Report, s: Wanted): Sentence[] {
+  const { lattice: l, quality: q, pseudo_volume: p } = r;
+  if (!p.inside_voxels) return ofVolume(r, s);
+  if (!l.tet_count) return ofLattice(r, s);
+  const said = [say(`Edges of ${length(l.mean_edge, s.unit)} on average, angles from ${q.min_dihedral_deg.toFixed(0)}° to ${q.max_dihedral_deg.toFixed(0)}°.`)];
+  if (Math.abs(l.tet_count / s.tets - 1) > 0.1) said.push(say(`You asked for ${s.tets.toLocaleString('en')}: this shape allows no closer number.`, 'watch'));
+  if (p.soup_covered < 0.9) said.push(say(`Only ${Math.round(100 * p.soup_covered)} % of the triangles touch the inside. Lower k to take in more.`, 'watch'));
+  return said;
+}
+
 export function ofLattice(r: Report, s: Wanted): Sentence[] {
   const l = r.lattice;
   if (!l.tet_count) return [say('No tet is left. Lower the share that must be inside, or ask for more tets.', 'watch')];
@@ -134,7 +145,7 @@ export function ofEmbedding(r: EmbedReport, unit: Unit): Sentence[] {
 }
 
 export function ofPlay(start: PlayStart): Sentence[] {
-  const said = [say(`${start.title}: ${count(start.tetCount, 'tet')}. Drag a body with the mouse or a finger to pull it.`)];
+  const said = [say(`${start.title}. Drag a body with the mouse or a finger to pull it.`)];
   const drawn = [...start.bodies, ...start.obstacles].reduce((sum, skin) => sum + skin.triangles.length / 3, 0);
   if (drawn < start.triangleCount)
     said.push(say(`No graphics card draws for this page, so ${drawn.toLocaleString('en')} of ${count(start.triangleCount, 'triangle')} are drawn. Nothing else changes.`));
@@ -143,6 +154,24 @@ export function ofPlay(start: PlayStart): Sentence[] {
 
 export function pascals(young: number): string {
   return young >= 1e6 ? `${(young / 1e6).toPrecision(2)} MPa` : `${(young / 1e3).toPrecision(2)} kPa`;
+}
+
+const kGravity = 9.81;
+/** Of its height that a body may sag under its own weight before that is said. */
+const kMuchSag = 0.2;
+
+/** How large and heavy the body is, and whether it holds itself up. */
+export function ofBody(r: Report, s: Settings): Sentence[] {
+  const metres = kUnits[s.unit].metres;
+  const extent = r.soup.box.hi.map((hi, i) => hi - r.soup.box.lo[i]);
+  const mass = s.density * r.quality.volume * metres ** 3;
+  const weight = mass < 1 ? `${Number((1000 * mass).toPrecision(2))} g` : `${Number(mass.toPrecision(2)).toLocaleString('en')} kg`;
+  const said = [say(`${length(Math.max(...extent), s.unit)} long, ${weight}.`)];
+  const height = heightOf(r.soup.box, s);
+  const sag = (s.density * kGravity * height) / 10 ** stiffnessOf(s, height);
+  if (sag > kMuchSag) said.push(say(sag > 0.9 ? 'So large and so soft it collapses under its own weight. Take it stiffer.'
+    : `So large and so soft it sags by some ${Math.round(100 * sag)}\u00a0% under its own weight.`, 'watch'));
+  return said;
 }
 
 /** What a stiffness feels like. */

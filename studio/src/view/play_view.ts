@@ -7,11 +7,16 @@ import type { Stage } from './stage';
 import { SurfaceLayer } from './surface_layer';
 import { TetLayer } from './tet_layer';
 
-/** Half of the ground's side, in metres, of which lines are drawn; mist hides where they end. */
-const kGround = 10;
-const kLineEvery = 0.5;
+/** The ground has so many lines along a side, half a body's length from each other, about; mist hides where they end. */
+const kLines = 40;
 /** Where mist begins and where nothing is seen any more, in distances of the camera. */
 const kMist = [1.15, 3];
+
+/** Half of a size, as a round number. */
+function lineGap(size: number): number {
+  const power = 10 ** Math.floor(Math.log10(size / 2));
+  return power * ([5, 2, 1].find((step) => step * power <= size / 2) ?? 1);
+}
 
 export interface Hand {
   grab(body: number, vertex: number, target: Vec3): void;
@@ -36,6 +41,7 @@ export class PlayView extends Group {
   private fitted = false;
   private kept = false;
   private placed = false;
+  private size = 1;
 
   constructor(private readonly stage: Stage, hand: Hand) {
     super();
@@ -49,6 +55,7 @@ export class PlayView extends Group {
 
   start(start: PlayStart): void {
     this.empty();
+    this.size = start.size;
     this.bodies = start.bodies.map((shape) => {
       const surface = new SurfaceLayer();
       const tets = new TetLayer();
@@ -95,7 +102,8 @@ export class PlayView extends Group {
     this.rope.material.color.set(palette.accent);
     this.grid?.removeFromParent();
     this.grid?.dispose();
-    this.grid = new GridHelper(2 * kGround, (2 * kGround) / kLineEvery, palette.grid, palette.grid);
+    const gap = lineGap(this.size);
+    this.grid = new GridHelper(kLines * gap, kLines, palette.grid, palette.grid);
     this.grid.rotation.x = Math.PI / 2;
     this.add(this.grid);
   }
@@ -152,7 +160,7 @@ export class PlayView extends Group {
     this.obstacles.forEach((o) => box.expandByObject(o));
     const size = box.getSize(new Vector3());
     box.min.z = Math.min(box.min.z, 0);
-    const side = Math.max(size.x, size.y, 0.6) * 0.12;
+    const side = Math.max(size.x, size.y, 0.6 * this.size) * 0.12;
     box.expandByVector(new Vector3(side, side, 0));
     this.stage.fit(box, true, new Vector3(0.45, -1, 0.32));
     this.mist();
