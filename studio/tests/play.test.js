@@ -85,9 +85,10 @@ test('four robots on the tree are simulated at 20 frames a second or better, and
 });
 
 test('a body falls in its own size, of the material that is said, and the panel shows that alone', async () => {
-  await studio.with('#sample=torus&voxels=48&tets=500&unit=cm', async (page) => {
+  await studio.with('#sample=torus&voxels=48&tets=500&unit=cm&stiffness=5.2', async (page) => {
     await settled(page);
     const said = await page.textContent('[data-report=simulation]');
+    assert.match(await page.textContent('#panel-simulation .brief'), /^\d+ kPa$/);
     assert.match(said, /1\.5 m long, [\d,.]+ kg/);
     await page.click('#drop');
     await played(page, 30);

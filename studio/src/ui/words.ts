@@ -153,7 +153,8 @@ export function ofPlay(start: PlayStart): Sentence[] {
 }
 
 export function pascals(young: number): string {
-  return young >= 1e6 ? `${(young / 1e6).toPrecision(2)} MPa` : `${(young / 1e3).toPrecision(2)} kPa`;
+  const [value, unit] = young >= 1e6 ? [young / 1e6, 'MPa'] : [young / 1e3, 'kPa'];
+  return `${Number(value.toPrecision(2))} ${unit}`;
 }
 
 const kGravity = 9.81;
