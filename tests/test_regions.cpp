@@ -165,12 +165,30 @@ TEST(Regions, faces_between_tets_follow_the_borders_of_layers) {
   EXPECT_LT(label_share(mesh, label_tets(mesh, layers.soup, layers.labels), layer_at), 0.93);
   EXPECT_GT(label_share(fitted, label_tets(fitted, layers.soup, layers.labels), layer_at), 0.97);
   const Quality before = measure_quality(mesh), after = measure_quality(fitted);
-  EXPECT_EQ(fitted.tets, mesh.tets);
+  EXPECT_EQ(fitted.vertices.size(), mesh.vertices.size());
+  EXPECT_TRUE(after.boundary_manifold);
+  EXPECT_EQ(after.components, 1U);
   EXPECT_EQ(after.inverted_tets, 0U);
   EXPECT_GE(after.min_dihedral, std::min(before.min_dihedral, options.smooth.min_dihedral) - 1e-4);
   EXPECT_NEAR(after.volume, before.volume, 0.003 * before.volume);
   EXPECT_LT(boundary_distance(fitted, layers.soup, 0.1).mean, boundary_distance(mesh, layers.soup, 0.1).mean + 0.01);
   EXPECT_EQ(fit_to_labels(mesh, layers.soup, layers.labels, options.smooth).vertices, fitted.vertices);
+}
+
+TEST(Regions, skins_thinner_than_a_tet_are_labelled_rightly_too) {
+  Labelled nested;
+  for (const double radius : {0.5, 0.4, 0.2}) nested.add(test::make_ball(radius));
+  MeshOptions options;
+  options.lattice.tets = 2000;
+  const TetMesh mesh = mesh_soup(nested.soup, options);
+  const TetMesh fitted = fit_to_labels(mesh, nested.soup, nested.labels, options.smooth);
+  const auto label_at = [](const Vec3d& p) { return length(p) < 0.2 ? 2U : length(p) < 0.4 ? 1U : 0U; };
+  EXPECT_GT(label_share(fitted, label_tets(fitted, nested.soup, nested.labels), label_at), 0.97);
+  const Quality before = measure_quality(mesh), after = measure_quality(fitted);
+  EXPECT_NEAR(after.volume, before.volume, 0.006 * before.volume);
+  EXPECT_EQ(after.inverted_tets, 0U);
+  EXPECT_TRUE(after.boundary_manifold);
+  EXPECT_GE(after.min_dihedral, std::min(before.min_dihedral, options.smooth.min_dihedral) - 1e-4);
 }
 
 TEST(Regions, vertices_near_a_named_piece_are_found) {

@@ -109,7 +109,10 @@ void measure(MeshRun& run, bool compare) {
   const TriangleSoup& soup = run.pipeline->soup().soup;
   run.distance = boundary_distance(run.mesh, soup, lattice.report.mean_edge);
   if (compare) run.raw_distance = boundary_distance(lattice.mesh, soup, lattice.report.mean_edge);
-  run.iou = run.pipeline->overlap(run.mesh);
+  // Bodies are told by the places of their tets, which regions may have changed.
+  run.iou = run.mesh.tets == lattice.mesh.tets
+                ? run.pipeline->overlap(run.mesh)
+                : intersection_over_union(run.mesh, run.pipeline->pseudo_volume().inside);
   run.fidelity = measure_fidelity(run.mesh, run.pipeline->soup());
   run.readiness = assess_readiness(run.mesh, run.quality, run.fidelity, run.material);
   run.seconds.quality = watch.seconds();

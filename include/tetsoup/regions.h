@@ -58,8 +58,9 @@ std::vector<std::uint32_t> label_tets(const TetMesh& mesh, const TriangleSoup& s
 std::vector<std::uint32_t> largest_of(const TetLabels& labels);
 
 /// Moves the vertices so that faces of tets follow the borders between labels, as smoothing draws the boundary to the
-/// surface: layers come out as layers. The boundary keeps its shape; the limits of `options` are kept, its passes and
-/// snapping are not looked at. Where no part is closed the mesh stays as it is.
+/// surface: layers come out as layers. Where tets have corners on both sides, inner edges that cross the border are
+/// removed, so that some tets are replaced by others of the same vertices. The boundary keeps its shape; the limits of
+/// `options` are kept, its passes and snapping are not looked at. Where no part is closed the mesh stays as it is.
 ///
 /// @throws InvalidInput  as share_tets() and smooth_tets() do; Cancelled.
 /// Cost: a few times that of share_tets().

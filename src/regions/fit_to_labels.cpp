@@ -10,13 +10,15 @@
 #include "base/tet_faces.h"
 #include "base/tet_geometry.h"
 #include "regions/label_places.h"
+#include "regions/remove_edges.h"
 #include "tetsoup/regions.h"
 
 namespace tetsoup {
 namespace {
 
-constexpr int kPasses = 6;
-constexpr std::int64_t kGrain = 16;   // faces
+constexpr int kPasses = 8;
+constexpr int kFirstRemoval = 2, kSecondRemoval = 5;  // Passes before which crossing edges are removed.
+constexpr std::int64_t kGrain = 16;                   // faces
 constexpr double kReach = 0.6;        // Mean edges: a border may lie halfway between two layers of cells.
 constexpr int kStepsInReach = 8;      // A layer thinner than a tenth of an edge may be missed.
 constexpr int kHalvings = 6;          // Of a step: to .002 edges.
@@ -268,12 +270,16 @@ TetMesh fit_to_labels(const TetMesh& mesh, const TriangleSoup& soup, std::span<c
     watch.poll();
     return !watch.stopped();
   };
-  const std::vector<TetFace> faces = sorted_faces(mesh);
-  const std::vector<FaceAim> held = hold_boundary(mesh, faces);
+  const std::vector<FaceAim> held = hold_boundary(mesh, sorted_faces(mesh));
   TetMesh fitted = mesh;
   for (int pass = 0; pass < kPasses; ++pass) {
     watch.enter_part(static_cast<double>(pass) / kPasses, static_cast<double>(pass + 1) / kPasses);
-    const TetLabels shares = share_tets(fitted, places, shift, watch);
+    TetLabels shares = share_tets(fitted, places, shift, watch);
+    if (pass == kFirstRemoval || pass == kSecondRemoval) {
+      const auto ask = [&](const Tet& tet) { return share_tet(corners_of(fitted, tet), places, shift); };
+      if (remove_crossing_edges(fitted, shares, options, ask) > 0) shares = share_tets(fitted, places, shift, watch);
+    }
+    const std::vector<TetFace> faces = sorted_faces(fitted);
     const std::vector<BorderFace> border = border_faces(fitted, faces, Labelling(fitted, faces, shares, edge).find());
     if (border.empty()) return fitted;
     std::vector<FaceAim> aims = BorderAims(fitted, places, shift, edge).find(border, watch);

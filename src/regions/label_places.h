@@ -1,6 +1,7 @@
 // Which label a place in space has: that of the closed part around it, or of the nearest triangle.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -61,7 +62,10 @@ class LabelPlaces {
   std::optional<TriangleBoxes> boxes_;  ///< and for distances.
 };
 
-/// @param shift  From the mesh's origin to that of the places.
+/// The labels of one tet. @param shift  From its origin to that of the places.
+std::vector<LabelShare> share_tet(const std::array<Vec3d, 4>& corners, const LabelPlaces& places, const Vec3d& shift);
+
+/// Of all. @param shift  From the mesh's origin to that of the places.
 TetLabels share_tets(const TetMesh& mesh, const LabelPlaces& places, const Vec3d& shift, StageWatch& watch);
 
 }  // namespace tetsoup

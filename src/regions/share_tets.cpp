@@ -25,45 +25,34 @@ std::vector<std::array<double, 4>> sample_weights() {
   return all;
 }
 
-class TetAsker {
- public:
-  TetAsker(const TetMesh& mesh, const LabelPlaces& places, const Vec3d& shift)
-      : mesh_(mesh), places_(places), shift_(shift) {}
-
-  std::vector<LabelShare> ask(std::size_t t) const {
-    TetCorners p = corners_of(mesh_, mesh_.tets[t]);
-    for (Vec3d& corner : p) corner += shift_;
-    const Vec3d centre = (p[0] + p[1] + p[2] + p[3]) * 0.25;
-    double radius = 0;
-    for (const Vec3d& corner : p) radius = std::max(radius, length(corner - centre));
-    if (places_.empty() || places_.is_clear(centre, radius)) return {{places_.at(centre), 1}};
-    std::vector<std::uint32_t> labels;
-    for (const auto& w : weights_) labels.push_back(places_.at(p[0] * w[0] + p[1] * w[1] + p[2] * w[2] + p[3] * w[3]));
-    std::sort(labels.begin(), labels.end());
-    std::vector<LabelShare> shares;
-    for (std::size_t i = 0, j = 0; i < labels.size(); i = j) {
-      while (j < labels.size() && labels[j] == labels[i]) ++j;
-      shares.push_back({labels[i], static_cast<float>(j - i) / static_cast<float>(labels.size())});
-    }
-    std::stable_sort(shares.begin(), shares.end(),
-                     [](const LabelShare& a, const LabelShare& b) { return a.share > b.share; });
-    return shares;
-  }
-
- private:
-  const TetMesh& mesh_;
-  const LabelPlaces& places_;
-  Vec3d shift_;  ///< From the mesh's origin to the soup's.
-  std::vector<std::array<double, 4>> weights_ = sample_weights();
-};
-
 }  // namespace
 
+std::vector<LabelShare> share_tet(const std::array<Vec3d, 4>& corners, const LabelPlaces& places, const Vec3d& shift) {
+  static const std::vector<std::array<double, 4>> kWeights = sample_weights();
+  TetCorners p = corners;
+  for (Vec3d& corner : p) corner += shift;
+  const Vec3d centre = (p[0] + p[1] + p[2] + p[3]) * 0.25;
+  double radius = 0;
+  for (const Vec3d& corner : p) radius = std::max(radius, length(corner - centre));
+  if (places.empty() || places.is_clear(centre, radius)) return {{places.at(centre), 1}};
+  std::vector<std::uint32_t> labels;
+  for (const auto& w : kWeights) labels.push_back(places.at(p[0] * w[0] + p[1] * w[1] + p[2] * w[2] + p[3] * w[3]));
+  std::sort(labels.begin(), labels.end());
+  std::vector<LabelShare> shares;
+  for (std::size_t i = 0, j = 0; i < labels.size(); i = j) {
+    while (j < labels.size() && labels[j] == labels[i]) ++j;
+    shares.push_back({labels[i], static_cast<float>(j - i) / static_cast<float>(labels.size())});
+  }
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const LabelShare& a, const LabelShare& b) { return a.share > b.share; });
+  return shares;
+}
+
 TetLabels share_tets(const TetMesh& mesh, const LabelPlaces& places, const Vec3d& shift, StageWatch& watch) {
-  const TetAsker asker(mesh, places, shift);
   std::vector<std::vector<LabelShare>> of_tets(mesh.tets.size());
   parallel_for(static_cast<std::int64_t>(of_tets.size()), kGrain, watch, [&](std::int64_t begin, std::int64_t end) {
-    for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) of_tets[t] = asker.ask(t);
+    for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t)
+      of_tets[t] = share_tet(corners_of(mesh, mesh.tets[t]), places, shift);
   });
   TetLabels result;
   result.first.push_back(0);
