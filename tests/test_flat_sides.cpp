@@ -119,6 +119,22 @@ TEST(FlatSides, a_step_between_the_faces_of_cells_is_flat_too) {
   EXPECT_LT(tilted(mesh_soup(stairs), planes_of(stairs, 0.2), 25), 0.01);
 }
 
+TEST(FlatSides, a_plate_thinner_than_a_tet_is_one_flat_layer_to_its_corners) {
+  for (const TriangleSoup& plate : {make_box({0, 0, 0}, {2, 1, 0.03}), turned(make_box({0, 0, 0}, {1, 0.05, 1.3}))}) {
+    Pipeline pipeline(plate);
+    const TetMesh& mesh = pipeline.run().mesh;
+    EXPECT_NEAR(static_cast<double>(mesh.tets.size()), 2000, 100);
+    EXPECT_LT(tilted(mesh, planes_of(plate, 0.02), 10), 0.01);
+    double largest = 0;
+    for (const Vec3& corner : plate.vertices) {
+      double least = 1e300;
+      for (const Vec3& v : mesh.vertices) least = std::min(least, length(to_double(v) - to_double(corner)));
+      largest = std::max(largest, least);
+    }
+    EXPECT_LT(largest, 0.5 * pipeline.lattice().report.mean_edge);
+  }
+}
+
 TEST(FlatSides, oblique_sides_come_out_plane_and_their_edges_sharp) {
   for (const std::uint32_t sides : {6U, 8U}) {
     SCOPED_TRACE(sides);

@@ -124,7 +124,7 @@ std::optional<Fill> fill_between_sides(Filler& filler, const Budget& budget, con
     Fill fill = filler.fill(pose_of(best->place, filler.grid()), Filler::Cells::WholeWhereFlat);
     if (fill.by_soup) return {};
     if (budget.miss(fill) <= budget.tolerance()) {
-      if (filler.shares(kept_mesh(fill.candidates)).overlap() < kLeastOverlap) return {};
+      if (!best->is_layer && filler.shares(kept_mesh(fill.candidates)).overlap() < kLeastOverlap) return {};
       return fill;
     }
     cells_wanted = volume / best->volume * static_cast<double>(budget.wanted) / static_cast<double>(budget.count(fill));

@@ -15,7 +15,7 @@ namespace tetsoup {
 struct FlatSides {
   struct Axis {
     Vec3d direction;
-    double lo = 0, hi = 0;  ///< The outermost planes along it, or the soup's ends; equal where there is one plane only.
+    double lo = 0, hi = 0;  ///< The outermost planes along it, or the soup's ends where there are fewer than two.
     struct Side {
       double offset, share;  ///< Share of the area of all planes.
     };
@@ -32,8 +32,9 @@ std::optional<FlatSides> find_flat_sides(const TriangleSoup& soup, double width,
 
 struct AlignedPlace {
   Place place;
-  double volume = 0;  ///< Of a cell.
-  double unfit = 0;   ///< How far planes are from faces of the cells, and cells from cubes.
+  double volume = 0;      ///< Of the soup that a cell takes in.
+  bool is_layer = false;  ///< A plate or a bar thinner than cells may be lies within one layer of them.
+  double unfit = 0;       ///< How far planes are from faces of the cells, and cells from cubes.
 };
 
 /// Places in which a whole number of cells fills the way between the outermost planes along every axis, with cells of

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 
 #include "base/whole.h"
 
@@ -13,6 +14,8 @@ namespace {
 constexpr double kFilled = 0.95;  // Of the box around them that voxels fill to be a box; along an axis they lie apart
                                   // by their size, which the box is larger by.
 constexpr double kMostOfCell = 0.98;  // A box as large as the cell says nothing of what it lacks.
+constexpr double kLeast = 0.05;       // Of a cell: less, inside or outside, leaves it as it is.
+constexpr double kBeyond = 1.5;       // Voxels behind a cell's face in which a box goes on.
 constexpr std::int64_t kCellsPerChunk = 8;
 
 /// Places of voxels in their cell, as far as a box can tell.
@@ -30,12 +33,16 @@ struct Spread {
   }
 };
 
+/// What decides about a cell, and the density its tets get.
+struct Fullness {
+  double judged = 0, density = 0;
+};
+
 class CellView {
  public:
   CellView(const BitGrid& inside, const LatticeFrame& frame) : inside_(inside), frame_(frame) {
     const double h = inside.frame.voxel_size;
     const Vec3d first = frame.to_cell(inside.frame.origin);
-    double volume = 1;
     for (std::size_t i = 0; i < 3; ++i) {
       Vec3d along;
       (i == 0 ? along.x : i == 1 ? along.y : along.z) = h;
@@ -45,35 +52,66 @@ class CellView {
       return std::max({std::abs(step_[0].*c), std::abs(step_[1].*c), std::abs(step_[2].*c)});
     };
     voxel_ = {extent(&Vec3d::x), extent(&Vec3d::y), extent(&Vec3d::z)};
-    volume = std::abs(dot(cross(step_[0], step_[1]), step_[2]));
-    share_ = volume;
+    share_ = std::abs(dot(cross(step_[0], step_[1]), step_[2]));
   }
 
-  /// Whether what is inside the cell, or what is not, is a box.
-  bool is_flat(const Cell& cell) const {
+  /// What of the cell is inside, where that or the rest of it is a box, beside the axes along which a box of the inside
+  /// goes on into both neighbours or ends within: a layer or a bar in the cell counts as if it filled it.
+  std::optional<Fullness> fullness(const Cell& cell) const {
     const GridFrame& grid = inside_.frame;
     const Vec3d corner{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
-    Vec3d lo{1e300, 1e300, 1e300}, hi = lo * -1;
-    for (unsigned i = 0; i < 8; ++i) {
-      const Vec3d at = corner + Vec3d{(i & 1U) != 0 ? 1.0 : 0.0, (i & 2U) != 0 ? 1.0 : 0.0, (i & 4U) != 0 ? 1.0 : 0.0};
-      const Vec3d p = (frame_.to_point(at) - grid.origin) * (1 / grid.voxel_size);
-      lo = min(lo, p), hi = max(hi, p);
-    }
+    const Vec3d margin = voxel_ * kBeyond;
+    const auto [lo, hi] = voxels_around(corner - margin, corner + Vec3d{1, 1, 1} + margin);
     Spread in, out;
+    std::array<std::array<bool, 2>, 3> goes_on{};
     const Vec3d first = frame_.to_cell(grid.origin) - corner;
-    for (int z = floor_to_int(lo.z); z <= floor_to_int(hi.z) + 1; ++z) {
-      for (int y = floor_to_int(lo.y); y <= floor_to_int(hi.y) + 1; ++y) {
-        for (int x = floor_to_int(lo.x); x <= floor_to_int(hi.x) + 1; ++x) {
+    for (int z = lo[2]; z <= hi[2]; ++z) {
+      for (int y = lo[1]; y <= hi[1]; ++y) {
+        for (int x = lo[0]; x <= hi[0]; ++x) {
           const Vec3d p = first + step_[0] * x + step_[1] * y + step_[2] * z;
-          if (!(p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < 1 && p.y < 1 && p.z < 1)) continue;
-          (grid.contains(x, y, z) && inside_.test(x, y, z) ? in : out).add(p);
+          const bool is_inside = grid.contains(x, y, z) && inside_.test(x, y, z);
+          const std::array<double, 3> at{p.x, p.y, p.z}, reach{margin.x, margin.y, margin.z};
+          std::size_t beyond = 0, axis = 0;
+          for (std::size_t i = 0; i < 3; ++i) {
+            if (at[i] >= 0 && at[i] < 1) continue;
+            ++beyond, axis = i;
+            if (at[i] < -reach[i] || at[i] > 1 + reach[i]) beyond = 3;
+          }
+          if (beyond == 0) (is_inside ? in : out).add(p);
+          if (beyond == 1 && is_inside) goes_on[axis][at[axis] < 0 ? 0 : 1] = true;
         }
       }
     }
-    return in.is_box(voxel_, share_) || out.is_box(voxel_, share_);
+    const double all = static_cast<double>(in.count) * share_;
+    if (!in.is_box(voxel_, share_))
+      return out.is_box(voxel_, share_) ? std::optional(Fullness{all, all}) : std::nullopt;
+    const Vec3d e = min(in.hi - in.lo + voxel_, {1, 1, 1});
+    double full = 1;
+    int narrow = 0;  // axes along which it ends within
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (goes_on[i][0] != goes_on[i][1]) full *= i == 0 ? e.x : i == 1 ? e.y : e.z;
+      narrow += !goes_on[i][0] && !goes_on[i][1] ? 1 : 0;
+    }
+    if (narrow == 3) return Fullness{all, all};
+    // A plate is as good as full; a bar stays, but is no fuller than it must be: bars side by side are not to be
+    // joined.
+    return Fullness{full, narrow == 1 ? full : all};
   }
 
  private:
+  /// First and last voxel around a box in cell coordinates.
+  std::array<std::array<int, 3>, 2> voxels_around(const Vec3d& begin, const Vec3d& end) const {
+    const GridFrame& grid = inside_.frame;
+    Vec3d lo{1e300, 1e300, 1e300}, hi = lo * -1;
+    for (unsigned i = 0; i < 8; ++i) {
+      const Vec3d at{(i & 1U) != 0 ? end.x : begin.x, (i & 2U) != 0 ? end.y : begin.y, (i & 4U) != 0 ? end.z : begin.z};
+      const Vec3d p = (frame_.to_point(at) - grid.origin) * (1 / grid.voxel_size);
+      lo = min(lo, p), hi = max(hi, p);
+    }
+    return {{{floor_to_int(lo.x), floor_to_int(lo.y), floor_to_int(lo.z)},
+             {floor_to_int(hi.x) + 1, floor_to_int(hi.y) + 1, floor_to_int(hi.z) + 1}}};
+  }
+
   const BitGrid& inside_;
   const LatticeFrame& frame_;
   std::array<Vec3d, 3> step_;  ///< Change of cell coordinates from voxel to voxel.
@@ -94,11 +132,12 @@ void level_flat_cells(const BitGrid& inside, const LatticeFrame& frame, const La
                    for (std::size_t t = 0; t < table.tet_count; ++t) {
                      sum += static_cast<double>(density[t]) * table.volume[t];
                    }
-                   constexpr double kWhole = 0.1;
-                   if (sum < kWhole || sum > 1 - kWhole || !view.is_flat(filled.cells[c].cell)) continue;
-                   // What holds nothing of the body goes on doing so: a bar in a cell wants no more than its cover.
-                   const bool stays = sum >= rho_min;
-                   const auto level = static_cast<float>(sum);
+                   if (sum < kLeast || sum > 1 - kLeast) continue;
+                   const std::optional<Fullness> full = view.fullness(filled.cells[c].cell);
+                   if (!full) continue;
+                   // What holds nothing of the body goes on doing so.
+                   const bool stays = full->judged >= rho_min;
+                   const auto level = static_cast<float>(stays ? std::max(full->density, rho_min) : full->density);
                    for (std::size_t t = 0; t < table.tet_count; ++t) {
                      density[t] = stays ? level : std::min(density[t], level);
                    }
