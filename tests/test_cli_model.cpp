@@ -225,13 +225,15 @@ TEST_F(ModelTool, a_model_in_map_coordinates_is_the_same_there_and_recentred_wit
       std::snprintf(moved.data(), moved.size(), "v %.6f %.6f %.6f", x + 4e5, y + 512, z - 5e6);
     text += moved[0] == 0 ? line : moved.data();
   }
-  ASSERT_EQ(mesh({"-o", "near.json", "--pin-below", "y:0.2", "--regions", "object"}).exit_code, 0);
+  ASSERT_EQ(mesh({"-o", "near.json", "--pin-below", "y:0.2", "--regions", "object", "--no-regions-fit"}).exit_code, 0);
   write_text(in_folder("lamp.obj"), text);
-  const Outcome there =
-      mesh({"-o", "there.json", "--json", "report.json", "--pin-below", "y:512.2", "--regions", "object"});
+  const Outcome there = mesh({"-o", "there.json", "--json", "report.json", "--pin-below", "y:512.2", "--regions",
+                              "object", "--no-regions-fit"});
   ASSERT_EQ(there.exit_code, 0) << there.err;
   EXPECT_NE(there.out.find("--recentre"), std::string::npos);
-  ASSERT_EQ(mesh({"-o", "zero.json", "--recentre", "--pin-below", "y:512.2", "--regions", "object"}).exit_code, 0);
+  ASSERT_EQ(mesh({"-o", "zero.json", "--recentre", "--pin-below", "y:512.2", "--regions", "object", "--no-regions-fit"})
+                .exit_code,
+            0);
   const auto json = [&](const char* name) { return Json::parse(read_text(in_folder(name))); };
   const Json near = json("near.json"), far = json("there.json"), zero = json("zero.json"), report = json("report.json");
   EXPECT_EQ(report["recentred"], false);

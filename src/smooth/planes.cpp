@@ -13,7 +13,8 @@ namespace {
 
 // In mean edges.
 constexpr double kLeastWidth = 1;  // Of a plane: what is narrower than a tet cannot be followed by whole triangles.
-constexpr double kFarthest = 0.6;  // A triangle's corner from its plane.
+constexpr double kFarthest = 0.6;  // A triangle's corner from its plane,
+constexpr double kFarthestOfLayer = 0.15;  // and where the mesh is one tet thick, so that it fits the wall in it.
 
 constexpr double kFacing = 0.2;   // Least cosine between a plane's normal and that of the aim which found it.
 constexpr double kCreased = 0.9;  // Cosine between two sides of an edge of the boundary that is to stay.
@@ -90,7 +91,7 @@ PlaneFit::Found PlaneFit::find(std::size_t t, const TriangleAim& aim, const Guar
   const Vec3d twice = cross(p[1] - p[0], p[2] - p[0]);
   Found found{{}, twice * (1 / length(twice)), aim.normal};
   found.planes.fill(kNone);
-  if (is_bare(*links_, links_->triangles[t])) return found;
+  const double farthest = edge_ * (is_bare(*links_, links_->triangles[t]) ? kFarthestOfLayer : kFarthest);
   for (std::size_t s = 0; s < kSamples; ++s) {
     const Aim& sample = aim.samples[s];
     if (!sample.in_reach) continue;
@@ -100,7 +101,7 @@ PlaneFit::Found PlaneFit::find(std::size_t t, const TriangleAim& aim, const Guar
     const std::uint32_t plane = plane_near(place, sample.normal, reach);
     if (plane == kNone) continue;
     const auto is_far = [&](const Vec3d& corner) {
-      return std::abs(dot(planes_[plane].normal, corner) - planes_[plane].offset) > kFarthest * edge_;
+      return std::abs(dot(planes_[plane].normal, corner) - planes_[plane].offset) > farthest;
     };
     if (std::none_of(p.begin(), p.end(), is_far)) found.planes[s] = plane;
   }
