@@ -33,6 +33,12 @@ struct Spread {
   }
 };
 
+/// Voxels of a cell, and whether what is inside goes on behind its lower and upper faces, by axis.
+struct Content {
+  Spread in, out;
+  std::array<std::array<bool, 2>, 3> goes_on{};
+};
+
 /// What decides about a cell, and the density its tets get.
 struct Fullness {
   double judged = 0, density = 0;
@@ -58,39 +64,20 @@ class CellView {
   /// What of the cell is inside, where that or the rest of it is a box, beside the axes along which a box of the inside
   /// goes on into both neighbours or ends within: a layer or a bar in the cell counts as if it filled it.
   std::optional<Fullness> fullness(const Cell& cell) const {
-    const GridFrame& grid = inside_.frame;
-    const Vec3d corner{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
-    const Vec3d margin = voxel_ * kBeyond;
-    const auto [lo, hi] = voxels_around(corner - margin, corner + Vec3d{1, 1, 1} + margin);
-    Spread in, out;
-    std::array<std::array<bool, 2>, 3> goes_on{};
-    const Vec3d first = frame_.to_cell(grid.origin) - corner;
-    for (int z = lo[2]; z <= hi[2]; ++z) {
-      for (int y = lo[1]; y <= hi[1]; ++y) {
-        for (int x = lo[0]; x <= hi[0]; ++x) {
-          const Vec3d p = first + step_[0] * x + step_[1] * y + step_[2] * z;
-          const bool is_inside = grid.contains(x, y, z) && inside_.test(x, y, z);
-          const std::array<double, 3> at{p.x, p.y, p.z}, reach{margin.x, margin.y, margin.z};
-          std::size_t beyond = 0, axis = 0;
-          for (std::size_t i = 0; i < 3; ++i) {
-            if (at[i] >= 0 && at[i] < 1) continue;
-            ++beyond, axis = i;
-            if (at[i] < -reach[i] || at[i] > 1 + reach[i]) beyond = 3;
-          }
-          if (beyond == 0) (is_inside ? in : out).add(p);
-          if (beyond == 1 && is_inside) goes_on[axis][at[axis] < 0 ? 0 : 1] = true;
-        }
-      }
-    }
+    const Content content = look_at(cell);
+    const Spread& in = content.in;
     const double all = static_cast<double>(in.count) * share_;
-    if (!in.is_box(voxel_, share_))
-      return out.is_box(voxel_, share_) ? std::optional(Fullness{all, all}) : std::nullopt;
+    if (!in.is_box(voxel_, share_)) {
+      return content.out.is_box(voxel_, share_) ? std::optional(Fullness{all, all}) : std::nullopt;
+    }
     const Vec3d e = min(in.hi - in.lo + voxel_, {1, 1, 1});
+    const std::array<double, 3> extent{e.x, e.y, e.z};
     double full = 1;
     int narrow = 0;  // axes along which it ends within
     for (std::size_t i = 0; i < 3; ++i) {
-      if (goes_on[i][0] != goes_on[i][1]) full *= i == 0 ? e.x : i == 1 ? e.y : e.z;
-      narrow += !goes_on[i][0] && !goes_on[i][1] ? 1 : 0;
+      const auto [below, above] = content.goes_on[i];
+      if (below != above) full *= extent[i];
+      narrow += !below && !above ? 1 : 0;
     }
     if (narrow == 3) return Fullness{all, all};
     // A plate is as good as full; a bar stays, but is no fuller than it must be: bars side by side are not to be
@@ -99,6 +86,37 @@ class CellView {
   }
 
  private:
+  Content look_at(const Cell& cell) const {
+    const GridFrame& grid = inside_.frame;
+    const Vec3d corner{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
+    const Vec3d margin = voxel_ * kBeyond, first = frame_.to_cell(grid.origin) - corner;
+    const auto [lo, hi] = voxels_around(corner - margin, corner + Vec3d{1, 1, 1} + margin);
+    Content content;
+    for (int z = lo[2]; z <= hi[2]; ++z) {
+      for (int y = lo[1]; y <= hi[1]; ++y) {
+        for (int x = lo[0]; x <= hi[0]; ++x) {
+          const Vec3d p = first + step_[0] * x + step_[1] * y + step_[2] * z;
+          const bool is_inside = grid.contains(x, y, z) && inside_.test(x, y, z);
+          note(p, margin, is_inside, content);
+        }
+      }
+    }
+    return content;
+  }
+
+  /// A voxel in the cell, or behind one of its faces.
+  static void note(const Vec3d& p, const Vec3d& margin, bool is_inside, Content& content) {
+    const std::array<double, 3> at{p.x, p.y, p.z}, reach{margin.x, margin.y, margin.z};
+    int beyond = 0;
+    std::size_t axis = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (at[i] < -reach[i] || at[i] > 1 + reach[i]) return;
+      if (at[i] < 0 || at[i] >= 1) ++beyond, axis = i;
+    }
+    if (beyond == 0) (is_inside ? content.in : content.out).add(p);
+    if (beyond == 1 && is_inside) content.goes_on[axis][at[axis] < 0 ? 0 : 1] = true;
+  }
+
   /// First and last voxel around a box in cell coordinates.
   std::array<std::array<int, 3>, 2> voxels_around(const Vec3d& begin, const Vec3d& end) const {
     const GridFrame& grid = inside_.frame;
