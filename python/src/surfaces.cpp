@@ -1,5 +1,6 @@
 // Render surfaces, the embedding that moves them with the tets, and what of a surface is nearest to a tet.
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/pair.h>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -7,6 +8,7 @@
 #include "records.h"
 #include "tetsoup/embed.h"
 #include "tetsoup/io.h"
+#include "tetsoup/label_volume.h"
 #include "tetsoup/regions.h"
 #include "tetsoup/render_mesh.h"
 
@@ -167,9 +169,26 @@ void bind_regions(nb::module_& m) {
   });
 }
 
+void bind_label_volumes(nb::module_& m) {
+  using Triple = std::array<double, 3>;
+  const auto vec = [](const Triple& t) { return Vec3d{t[0], t[1], t[2]}; };
+  m.def(
+      "label_surfaces",
+      [vec](IndicesIn labels, const std::array<std::size_t, 3>& size, const std::array<Triple, 3>& steps,
+            const Triple& origin, const std::vector<std::pair<std::uint32_t, std::string>>& names) {
+        const LabelVolume volume{
+            size, copy_rows<std::uint32_t>(labels), {vec(steps[0]), vec(steps[1]), vec(steps[2])}, vec(origin), names};
+        return call_unlocked([&] {
+          return std::make_pair(at_its_place(render_mesh_of(label_hull(volume))), at_its_place(label_surfaces(volume)));
+        });
+      },
+      nb::arg("labels"), nb::arg("size"), nb::arg("steps"), nb::arg("origin"), nb::arg("names"));
+}
+
 }  // namespace
 
 void bind_surfaces(nb::module_& m) {
+  bind_label_volumes(m);
   bind_render_mesh(m);
   bind_embedding(m);
   bind_regions(m);

@@ -223,3 +223,22 @@ def test_usd_holds_the_render_surface_and_its_embedding(mesh, bars):
     assert np.array_equal(np.array(primvars.GetPrimvar("tetsoup:tet").Get()), embedding.tets)
     assert np.array_equal(np.array(primvars.GetPrimvar("tetsoup:weights").Get()), embedding.weights)
     assert len(primvars.GetPrimvar("st").ComputeFlattened()) == len(surface.corners)
+
+
+def test_labelled_voxels_become_tets_with_their_labels_as_regions() -> None:
+    z, y, x = np.meshgrid(np.arange(12), np.arange(20), np.arange(24), indexing="ij")
+    away = np.sqrt((x - 11.5) ** 2 + (y - 9.5) ** 2 + (2 * (z - 5.5)) ** 2)
+    labels = np.where(away < 5, 2, np.where(away < 9, 1, 0)).astype(np.uint8)
+    scan = tetsoup.from_labels(labels, (1, 1, 2), (100, 0, 0), names={2: "bone"})
+    assert [part.object for part in scan.regions.parts] == ["label_1", "bone"]
+    mesh = tetsoup.tetrahedralize(scan.hull, voxels=64)
+    assert abs(mesh.quality.volume - 2 * np.count_nonzero(labels)) < 0.05 * mesh.quality.volume
+    assert mesh.points[:, 0].min() > 100
+    found = mesh.regions(scan.regions, by="object")
+    assert found.names == ["label_1", "bone"]
+    assert 0.05 < np.mean(np.asarray(found.labels) == 1) < 0.4
+    for wrong in (labels[0], labels / 2, labels.astype(np.int64) - 1):
+        with pytest.raises(tetsoup.InvalidInput):
+            tetsoup.from_labels(wrong)
+    with pytest.raises(tetsoup.InvalidInput, match="voxel"):
+        tetsoup.from_labels(labels, (1, 0, 1))

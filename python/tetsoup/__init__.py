@@ -60,7 +60,7 @@ from tetsoup._stages import (
     unsigned_distance,
     widen_distance,
 )
-from tetsoup._surface import Part, RenderMesh, read_surface
+from tetsoup._surface import LabelSurfaces, Part, RenderMesh, from_labels, read_surface
 from tetsoup.options import (
     BodyOptions,
     DistanceOptions,
@@ -223,6 +223,7 @@ __all__ = [
     "Fidelity",
     "InvalidInput",
     "IoError",
+    "LabelSurfaces",
     "LatticeMesh",
     "LatticeOptions",
     "LatticeReport",
@@ -265,6 +266,7 @@ __all__ = [
     "fidelity",
     "fill_lattice",
     "formats",
+    "from_labels",
     "overlap",
     "read",
     "read_embedding",

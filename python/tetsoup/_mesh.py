@@ -270,7 +270,9 @@ class TetMesh:
         return embed(self, surface, faces, max_extrapolation=max_extrapolation, progress=progress)
 
     def regions(self, surface: Any, by: PartKind = "material", *, progress: Progress | None = None) -> Regions:
-        """The part of the surface that is nearest to each tet.
+        """The part of the surface in which most of each tet lies, of open parts the nearest.
+
+        A tet is of the closed part that contains it, of several the innermost.
 
         Args:
             surface: a `RenderMesh`, a file's name, or whatever `tetrahedralize` takes as one object.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from tetsoup import _core
 from tetsoup._core import InvalidInput
-from tetsoup._soup_input import as_choices, as_index_list, as_points, as_rows, as_soup
+from tetsoup._soup_input import as_choices, as_index_list, as_points, as_rows, as_soup, as_triple
 
 
 class Part(NamedTuple):
@@ -189,6 +189,63 @@ def read_surface(path: str | os.PathLike[str]) -> RenderMesh:
         Part(object='bunny', group='', material='fur')
     """
     return RenderMesh._wrap(_core.read_render_mesh(os.fspath(path)))
+
+
+class LabelSurfaces(NamedTuple):
+    """Surfaces of labelled voxels: what `from_labels` makes."""
+
+    hull: RenderMesh
+    """Between what has a label and what is outside: for `tetrahedralize`."""
+    regions: RenderMesh
+    """Of every label by itself, an object each: for `TetMesh.regions`."""
+
+
+def from_labels(
+    labels: npt.ArrayLike,
+    spacing: Sequence[float] = (1, 1, 1),
+    origin: Sequence[float] = (0, 0, 0),
+    *,
+    directions: npt.ArrayLike = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+    names: Mapping[int, str] | None = None,
+) -> LabelSurfaces:
+    """Surfaces of an image whose voxels have labels, such as a segmented scan; 0 is outside.
+
+    Args:
+        labels: (nz, ny, nx) whole numbers or bools, as SimpleITK gives them and as all grids here are; nibabel's
+            arrays are the other way round: give their `.T`.
+        spacing: of voxels along x, y and z.
+        origin: (x, y, z) of the first voxel's centre.
+        directions: rows are the unit vectors along which x, y and z of the array run.
+        names: of labels; without one label 3 is "label_3".
+
+    Raises:
+        tetsoup.InvalidInput: if the array has another shape, or holds anything but labels from 0 to 2^32 - 1.
+
+    Example:
+        >>> scan = tetsoup.from_labels(labels, spacing=(0.5, 0.5, 1.2), names={1: "flesh", 2: "bone"})
+        >>> mesh = tetsoup.tetrahedralize(scan.hull)
+        >>> mesh.save("leg", engine="sofa", regions=mesh.regions(scan.regions, by="object"))
+    """
+    array = np.asarray(labels)
+    if array.ndim != 3 or array.size == 0:
+        raise InvalidInput(f"labels has the shape {array.shape}, must be (nz, ny, nx)")
+    if array.dtype.kind not in "biu":
+        raise InvalidInput(f"labels has the type {array.dtype}, must be integers or bools")
+    if int(array.min()) < 0 or int(array.max()) > 0xFFFFFFFF:
+        raise InvalidInput("labels must be from 0 to 2^32 - 1")
+    steps = np.asarray(directions, np.float64)
+    if steps.shape != (3, 3):
+        raise InvalidInput(f"directions has the shape {steps.shape}, must be (3, 3)")
+    steps = steps * np.asarray(as_triple(spacing, "spacing"))[:, None]
+    nz, ny, nx = array.shape
+    hull, regions = _core.label_surfaces(
+        np.ascontiguousarray(array, np.uint32).ravel(),
+        [nx, ny, nz],
+        steps.tolist(),
+        as_triple(origin, "origin"),
+        [(int(label), str(name)) for label, name in (names or {}).items()],
+    )
+    return LabelSurfaces(RenderMesh._wrap(hull), RenderMesh._wrap(regions))
 
 
 def as_surface(source: Any) -> RenderMesh:
