@@ -95,8 +95,8 @@ TEST_F(SimulateTool, a_folder_holds_frames_and_goes_on_to_the_same_hashes) {
 }
 
 TEST_F(SimulateTool, what_ctrl_c_stops_can_go_on) {
-  // Longer than anybody waits; `timeout` presses Ctrl-C.
-  // In the foreground, or the signal comes twice: to the tool and to its group, and the second one kills.
+  // Longer than anybody waits; `timeout` presses Ctrl-C. In the foreground, or it comes twice, to the tool and to its
+  // group, and the second one kills.
   const std::string tool = std::string("cd ") + in_folder("").string() +
                            " && timeout --foreground --preserve-status -s INT 3 " + TETSOUP_CLI +
                            " simulate box.json -o part --seconds 3600 2> err.txt";
