@@ -1,4 +1,4 @@
-#define EIGEN_DONT_VECTORIZE  // one order of operations on every machine
+#include "base/eigen_settings.h"
 #include "base/symmetric_eigen.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,5 @@
+#include "base/eigen_settings.h"
+
 #include <Eigen/SparseCholesky>
 #include <limits>
 

@@ -1,6 +1,8 @@
 // The two linear solves over the boundary: implicit fairing [Desbrun99 §3], and diffusion of the volume it swept.
 #pragma once
 
+#include "base/eigen_settings.h"
+
 #include <Eigen/SparseCore>
 #include <vector>
 
