@@ -21,9 +21,9 @@ const kAllThreads = 0;
 const kFeel = { damping_time: 0.004, friction: 0.8 };
 const kWater: Material = { density: 1000, young: 63000, poisson: 0.4 };
 /** A squeezed body that became stiff at once would fly off: its stiffness changes by at most this factor a frame, */
-const kStiffening = 1.2;
+const kStiffening = 1.1;
 /** and of its speed this much is left. */
-const kCalmed = 0.5;
+const kCalmed = 0.3;
 
 interface SceneBody {
   material?: Partial<Material>;
