@@ -24,7 +24,7 @@ constexpr double kMostPlanes = 1024;  // That the area could be cut into: planes
                                       // triangles could follow are not looked for, and cost nothing.
 constexpr unsigned kBucketBits = 16;
 constexpr std::size_t kBuckets = std::size_t{1} << kBucketBits;
-constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15ULL;  // of Fibonacci hashing [Knuth98 §6.4]
+constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15ULL;  // of Fibonacci hashing
 constexpr std::int64_t kGrain = 4096;                     // triangles
 constexpr double kMostSteps = 1e9;                        // Offsets beyond share a class.
 

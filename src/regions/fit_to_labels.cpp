@@ -9,6 +9,7 @@
 #include "base/require.h"
 #include "base/tet_faces.h"
 #include "base/tet_geometry.h"
+#include "base/triangle_samples.h"
 #include "regions/label_places.h"
 #include "regions/remove_edges.h"
 #include "tetsoup/regions.h"
@@ -23,14 +24,6 @@ constexpr double kReach = 0.6;        // Mean edges: a border may lie halfway be
 constexpr int kStepsInReach = 8;      // A layer thinner than a tenth of an edge may be missed.
 constexpr int kHalvings = 6;          // Of a step: to .002 edges.
 constexpr double kLeastCosine = 0.3;  // Between the way searched and a surface's normal, below which it is not that.
-
-constexpr std::size_t kSamples = 6;
-constexpr std::array<std::array<double, 3>, kSamples> kSampleWeights{{{7.0 / 9, 1.0 / 9, 1.0 / 9},
-                                                                      {1.0 / 9, 7.0 / 9, 1.0 / 9},
-                                                                      {1.0 / 9, 1.0 / 9, 7.0 / 9},
-                                                                      {1.0 / 9, 4.0 / 9, 4.0 / 9},
-                                                                      {4.0 / 9, 1.0 / 9, 4.0 / 9},
-                                                                      {4.0 / 9, 4.0 / 9, 1.0 / 9}}};
 
 constexpr std::array<std::array<double, 3>, 3> kCornerWeights{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 

@@ -6,21 +6,12 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/triangle_samples.h"
 #include "smooth/connectivity.h"
 #include "smooth/guard.h"
 #include "tetsoup/types.h"
 
 namespace tetsoup {
-
-/// Points of a boundary triangle at which it is held to the surface, as weights of its corners: fitted are the
-/// triangles and not the vertices, whose chords would lose volume.
-inline constexpr std::size_t kSamples = 6;
-inline constexpr std::array<std::array<double, 3>, kSamples> kSampleWeights{{{7.0 / 9, 1.0 / 9, 1.0 / 9},
-                                                                             {1.0 / 9, 7.0 / 9, 1.0 / 9},
-                                                                             {1.0 / 9, 1.0 / 9, 7.0 / 9},
-                                                                             {1.0 / 9, 4.0 / 9, 4.0 / 9},
-                                                                             {4.0 / 9, 1.0 / 9, 4.0 / 9},
-                                                                             {4.0 / 9, 4.0 / 9, 1.0 / 9}}};
 
 /// A sample should come to lie where dot(normal, x) = offset.
 struct Aim {
@@ -30,6 +21,7 @@ struct Aim {
 };
 
 struct TriangleAim {
+  /// At points of the triangle: fitted are the triangles and not the vertices, whose chords would lose volume.
   std::array<Aim, kSamples> samples;
   Vec3d normal;  ///< Mean of those of its corners: how it would lie on a smooth boundary.
   double area = 0;
